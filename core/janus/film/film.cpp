@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/film/film.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace janus {
+
+namespace {
+constexpr int kBandRows = 16;
+}
+
+Film::Film(FilmRect rect, Filter filter)
+    : rect_(rect),
+      filter_(std::move(filter)),
+      pass_(rect.pixels(), vec4(0.0f)),
+      pass_splats_(rect.pixels(), Rgb(0.0f)),
+      sum_(rect.pixels(), glm::dvec4(0.0)) {}
+
+void Film::begin_pass() {
+  std::fill(pass_.begin(), pass_.end(), vec4(0.0f));
+  std::fill(pass_splats_.begin(), pass_splats_.end(), Rgb(0.0f));
+}
+
+void Film::add_splats(std::span<const std::vector<Splat>> blocks, ThreadPool& pool) {
+  const size_t bands = (rect_.height() + kBandRows - 1) / kBandRows;
+  const float radius = filter_.radius();
+  pool.parallel_for(bands, [&](size_t band) {
+    const int band_y0 = rect_.y0 + static_cast<int>(band) * kBandRows;
+    const int band_y1 = std::min(band_y0 + kBandRows, rect_.y1);
+    for (const std::vector<Splat>& block : blocks) {
+      for (const Splat& splat : block) {
+        // Pixels whose centre lies within the filter's support.
+        const int y0 = std::max(band_y0, static_cast<int>(std::ceil(splat.raster.y - radius - 0.5f)));
+        const int y1 = std::min(band_y1 - 1,
+                                static_cast<int>(std::floor(splat.raster.y + radius - 0.5f)));
+        if (y0 > y1) {
+          continue;
+        }
+        const int x0 =
+            std::max(rect_.x0, static_cast<int>(std::ceil(splat.raster.x - radius - 0.5f)));
+        const int x1 = std::min(rect_.x1 - 1,
+                                static_cast<int>(std::floor(splat.raster.x + radius - 0.5f)));
+        for (int y = y0; y <= y1; ++y) {
+          for (int x = x0; x <= x1; ++x) {
+            const float weight = filter_.evaluate(splat.raster - vec2(x + 0.5f, y + 0.5f));
+            pass_splats_[static_cast<size_t>(y - rect_.y0) * rect_.width() + (x - rect_.x0)] +=
+                weight * splat.value;
+          }
+        }
+      }
+    }
+  });
+}
+
+void Film::end_pass(ThreadPool& pool) {
+  pool.parallel_for(rect_.height(), [&](size_t row) {
+    const size_t w = rect_.width();
+    for (size_t i = row * w; i < (row + 1) * w; ++i) {
+      sum_[i] += glm::dvec4(pass_[i]) + glm::dvec4(pass_splats_[i], 0.0f);
+    }
+  });
+  ++passes_;
+}
+
+Image Film::develop() const {
+  Image image(rect_.width(), rect_.height(), 4);
+  if (passes_ > 0) {
+    for (size_t i = 0; i < sum_.size(); ++i) {
+      for (int c = 0; c < 4; ++c) {
+        image.pixels[4 * i + c] = static_cast<float>(sum_[i][c] / passes_);
+      }
+    }
+  }
+  return image;
+}
+
+}  // namespace janus

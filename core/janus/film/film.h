@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "janus/film/filter.h"
+#include "janus/image/image.h"
+#include "janus/math/vec.h"
+#include "janus/util/parallel.h"
+
+namespace janus {
+
+// Pixels [x0, x1) x [y0, y1) of a full frame, from the bottom left.
+struct FilmRect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  size_t pixels() const { return static_cast<size_t>(width()) * height(); }
+};
+
+// A t=1 contribution at a raster position of the full frame, already divided by the number of
+// light paths of the pass.
+struct Splat {
+  vec2 raster;
+  Rgb value;
+};
+
+// Accumulates whole passes. A pass writes its camera samples (one per pixel, each pixel by one
+// thread) and its splats; end_pass() adds both to the sums, so an abandoned pass leaves no trace.
+// Every sum is taken in a fixed order, so the image does not depend on the number of threads.
+class Film {
+ public:
+  Film(FilmRect rect, Filter filter);
+
+  const FilmRect& rect() const { return rect_; }
+  const Filter& filter() const { return filter_; }
+
+  // The raster position of the sample for pixel `index` of the rect (row-major), u in [0,1)^2.
+  vec2 sample_position(size_t index, vec2 u) const {
+    const int w = rect_.width();
+    const vec2 center(rect_.x0 + static_cast<int>(index % w) + 0.5f,
+                      rect_.y0 + static_cast<int>(index / w) + 0.5f);
+    return center + filter_.sample(u);
+  }
+
+  void begin_pass();
+  // Adds to the pixel's sample of this pass. Calls for different pixels may run at once.
+  void add_sample(size_t index, Rgb value, float alpha) { pass_[index] += vec4(value, alpha); }
+  // Adds splats in the order given. `pool` spreads bands of rows; the result is the same.
+  void add_splats(std::span<const std::vector<Splat>> blocks, ThreadPool& pool);
+  void end_pass(ThreadPool& pool);
+
+  int passes() const { return passes_; }
+
+  // The mean over the passes: RGBA, premultiplied; black before the first pass.
+  Image develop() const;
+
+ private:
+  FilmRect rect_;
+  Filter filter_;
+  int passes_ = 0;
+  std::vector<vec4> pass_;         // camera samples of the running pass
+  std::vector<Rgb> pass_splats_;   // light image of the running pass
+  std::vector<glm::dvec4> sum_;    // both, over whole passes
+};
+
+}  // namespace janus

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Ray queries. Embree (3.13 or 4) is known to accel.cpp alone.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "janus/geometry/interaction.h"
+#include "janus/geometry/mesh.h"
+#include "janus/util/cancel.h"
+
+namespace janus {
+
+class Accel {
+ public:
+  // Builds the two-level hierarchy. Meshes and instances must outlive this. Throws Cancelled, or
+  // Error with Embree's message.
+  Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
+        const CancelToken& cancel);
+  ~Accel();
+  Accel(const Accel&) = delete;
+  Accel& operator=(const Accel&) = delete;
+
+  // The nearest surface within (0, ray.t_max).
+  std::optional<SurfaceInteraction> intersect(const Ray& ray) const;
+
+  // True if something lies on the open segment from `a` to `b` (points already off surfaces).
+  bool occluded(vec3 a, vec3 b) const;
+
+  // The surface at barycentric coordinates (b1, b2) of a triangle; `offset` and normals as from a
+  // hit. Used by light sampling, so that both ends of a shadow ray follow one rule.
+  SurfaceInteraction surface_point(uint32_t instance, uint32_t primitive, vec2 b) const;
+
+  // World bounds of everything.
+  const Bounds& bounds() const { return bounds_; }
+
+  static std::string embree_version();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  const std::vector<Mesh>& meshes_;
+  const std::vector<Instance>& instances_;
+  Bounds bounds_;
+};
+
+}  // namespace janus

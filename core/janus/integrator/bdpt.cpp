@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Bidirectional path tracing with a light-vertex cache (Davidovic et al. 2014). A pass traces N_L
+// light paths, splatting each vertex (t=1) and caching it, then one camera path per pixel with
+// emission hits (s=0), next event estimation (s=1) and C connections per vertex to cache entries
+// picked uniformly. Counts may be zero: without light paths this is a path tracer.
+//
+// To bound the cache, a pass runs in waves: a range of its light paths with a cache of their own,
+// then an interleaved subset of its pixels.
+#include "janus/integrator/pass.h"
+#include "janus/path/connect.h"
+#include "janus/path/oracle.h"
+
+namespace janus {
+
+namespace {
+
+constexpr size_t kPilotPaths = 4096;
+constexpr size_t kOracleStride = 97;  // debug mode checks every 97th pixel
+
+// Connectible light vertices with their lobes in one pool.
+struct VertexCache {
+  std::vector<LightVertex> vertices;
+  std::vector<Lobe> lobes;
+
+  void add(const PathVertex& v) {
+    LightVertex out{v.hit.p, v.hit.ng, v.hit.offset, v.back, v.beta, v.mis,
+                    static_cast<uint32_t>(lobes.size()), 0, static_cast<uint16_t>(v.edges)};
+    const BsdfView bsdf = v.bsdf();
+    for (const Lobe& lobe : bsdf.lobes()) {
+      if (!is_delta(lobe)) {  // view-free and connectible: the rest is never asked for
+        lobes.push_back(lobe);
+        ++out.lobe_count;
+      }
+    }
+    vertices.push_back(out);
+  }
+  BsdfView bsdf(const LightVertex& v) const {
+    return {std::span(lobes).subspan(v.first_lobe, v.lobe_count), v.ng};
+  }
+  size_t bytes() const {
+    return vertices.size() * sizeof(LightVertex) + lobes.size() * sizeof(Lobe);
+  }
+};
+
+class Bdpt final : public PassIntegrator {
+ public:
+  Bdpt(const RenderContext& context, const IntegratorSettings& settings)
+      : PassIntegrator(context, settings),
+        light_paths_(light_path_count()),
+        mis_(settings.heuristic, counts_) {
+    run_pilot();
+  }
+
+  void render_pass(int pass) override {
+    for (size_t wave = 0; wave < waves_; ++wave) {
+      trace_lights(pass, wave);
+      trace_camera(pass, wave);
+    }
+  }
+
+  double weight_error() const override { return weight_error_; }
+
+ private:
+  // Measures the vertices that a light path leaves in the cache. The weights need that number
+  // before the pass: with the pass's own count, weight and estimate would be correlated.
+  void run_pilot() {
+    counts_.splat = static_cast<float>(light_paths_);
+    if (light_paths_ > 0 && settings_.connections > 0.0f) {
+      constexpr size_t kBlocks = 16;
+      std::array<VertexCache, kBlocks> caches;
+      context_.pool.parallel_for(kBlocks, [&](size_t block) {
+        context_.cancel.throw_if_cancelled();
+        Counters ignored;
+        for (size_t i = 0; i < kPilotPaths / kBlocks; ++i) {
+          Sampler sampler(settings_.seed, Stream::Pilot, 0, block * (kPilotPaths / kBlocks) + i);
+          trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, ignored,
+                              [&](const PathVertex& v, Sampler&) { cache(v, caches[block]); });
+        }
+      });
+      size_t vertices = 0, bytes = 0;
+      for (const VertexCache& c : caches) {
+        vertices += c.vertices.size();
+        bytes += c.bytes();
+      }
+      if (vertices > 0) {
+        counts_.connection = settings_.connections * kPilotPaths / vertices;
+        const double pass_bytes = static_cast<double>(bytes) / kPilotPaths * light_paths_;
+        waves_ = 1 + static_cast<size_t>(1.1 * pass_bytes / settings_.cache_bytes);
+      }
+    }
+    mis_ = Mis(settings_.heuristic, counts_);
+  }
+
+  // A vertex that no camera vertex may join within the length limit is not worth its place.
+  void cache(const PathVertex& v, VertexCache& cache) const {
+    if (v.bsdf().connectible() && v.edges + 2 <= settings_.walk.max_edges) {
+      cache.add(v);
+    }
+  }
+
+  void trace_lights(int pass, size_t wave) {
+    const size_t begin = light_paths_ * wave / waves_, end = light_paths_ * (wave + 1) / waves_;
+    wave_paths_ = end - begin;
+    const size_t blocks = (wave_paths_ + kLightBlock - 1) / kLightBlock;
+    const float margin = context_.film.filter().radius();
+    const bool connect = counts_.connection > 0.0f;
+    std::vector<VertexCache> caches(blocks);
+    std::vector<std::vector<Splat>> splats(blocks);
+    context_.pool.parallel_for(blocks, [&](size_t block) {
+      context_.cancel.throw_if_cancelled();
+      Counters counters;
+      const size_t block_end = std::min(end, begin + (block + 1) * kLightBlock);
+      for (size_t i = begin + block * kLightBlock; i < block_end; ++i) {
+        Sampler sampler(settings_.seed, Stream::Light, 0,
+                        static_cast<uint64_t>(pass) * light_paths_ + i);
+        trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, counters,
+                            [&](const PathVertex& v, Sampler&) {
+                              splat(v, margin, splats[block], counters);
+                              if (connect) {
+                                cache(v, caches[block]);
+                              }
+                            });
+      }
+      counters.light_vertices = caches[block].vertices.size();
+      add(counters);
+    });
+    context_.film.add_splats(splats, context_.pool);
+    merge(caches);
+  }
+
+  // Concatenates in light-path order, whichever thread traced what.
+  void merge(std::vector<VertexCache>& blocks) {
+    cache_.vertices.clear();
+    cache_.lobes.clear();
+    for (VertexCache& block : blocks) {
+      const auto first = static_cast<uint32_t>(cache_.lobes.size());
+      for (LightVertex& v : block.vertices) {
+        v.first_lobe += first;
+      }
+      cache_.vertices.insert(cache_.vertices.end(), block.vertices.begin(), block.vertices.end());
+      cache_.lobes.insert(cache_.lobes.end(), block.lobes.begin(), block.lobes.end());
+      block = {};
+    }
+  }
+
+  void splat(const PathVertex& v, float margin, std::vector<Splat>& out,
+             Counters& counters) const {
+    const auto s = connect_to_camera(v, context_.camera, margin, mis_);
+    if (!s) {
+      return;
+    }
+    const Rgb value = s->connection.value * s->connection.weight;
+    if (!usable(value, counters)) {
+      return;
+    }
+    ++counters.splat_rays;
+    if (!context_.scene.occluded(s->connection.from, s->connection.to)) {
+      out.push_back({s->raster, value / static_cast<float>(light_paths_)});
+    }
+  }
+
+  void trace_camera(int pass, size_t wave) {
+    const size_t width = context_.film.rect().width();
+    for_each_row([&](size_t row, Counters& counters) {
+      for (size_t x = 0; x < width; ++x) {
+        if (waves_ == 1 || (x + 3 * row) % waves_ == wave) {
+          trace_pixel(row * width + x, pass, counters);
+        }
+      }
+    });
+  }
+
+  void trace_pixel(size_t index, int pass, Counters& counters) {
+    Sampler sampler = camera_sampler(index, pass);
+    sampler.start_block(0);
+    const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
+    Rgb sum(0.0f);
+    const auto gather = [&](Rgb value) {
+      if (usable(value, counters)) {
+        sum += value;
+      }
+    };
+    const bool seen = trace_camera_subpath(
+        context_.scene, context_.camera, raster, mis_, settings_.walk, sampler, counters,
+        [&](const LightFound& found) {
+          if (found.edges == 1 && settings_.film_transparent &&
+              context_.scene.lights[found.light]->infinite()) {
+            return;
+          }
+          gather(found.beta * found.hit.radiance * found.weight);
+        },
+        [&](const PathVertex& v, Sampler& walk_sampler) {
+          if (v.bsdf().connectible()) {
+            gather(next_event(v, walk_sampler, counters));
+            gather(connect(v, walk_sampler, counters));
+          }
+        });
+    const float alpha = seen || !settings_.film_transparent ? 1.0f : 0.0f;
+    context_.film.add_sample(index, sum, alpha);
+    if (settings_.check_weights && index % kOracleStride == 0) {
+      check(raster, index, pass);
+    }
+  }
+
+  Rgb next_event(const PathVertex& v, Sampler& sampler, Counters& counters) const {
+    if (!context_.scene.light_sampler.illuminates()) {
+      return Rgb(0.0f);
+    }
+    const auto nee = connect_to_light(context_.scene, v, mis_, sampler);
+    return nee ? visible(nee->connection, 1.0f, counters.nee_rays) : Rgb(0.0f);
+  }
+
+  Rgb connect(const PathVertex& v, Sampler& sampler, Counters& counters) const {
+    Rgb sum(0.0f);
+    if (counts_.connection == 0.0f || cache_.vertices.empty()) {
+      return sum;
+    }
+    const auto samples = static_cast<int>(settings_.connections + sampler.next_1d());
+    const size_t size = cache_.vertices.size();
+    // The actual size belongs to the estimate, the expected one (in counts_) to the weights.
+    const float scale = static_cast<float>(size) /
+                        (settings_.connections * static_cast<float>(wave_paths_));
+    for (int n = 0; n < samples; ++n) {
+      const size_t pick =
+          std::min(static_cast<size_t>(sampler.next_1d() * static_cast<double>(size)), size - 1);
+      const LightVertex& l = cache_.vertices[pick];
+      if (l.edges + v.edges + 1 > settings_.walk.max_edges) {
+        continue;
+      }
+      if (const auto c = connect_vertices(l, cache_.bsdf(l), v, mis_)) {
+        sum += visible(*c, scale, counters.connection_rays);
+      }
+    }
+    return sum;
+  }
+
+  Rgb visible(const Connection& c, float scale, uint64_t& rays) const {
+    const Rgb value = c.value * (c.weight * scale);
+    if (is_black(value)) {
+      return value;
+    }
+    ++rays;
+    return context_.scene.occluded(c.from, c.to) ? Rgb(0.0f) : value;
+  }
+
+  void check(vec2 raster, size_t index, int pass) {
+    const WeightCheck result =
+        check_weights(context_.scene, context_.camera, raster, settings_.heuristic, counts_,
+                      settings_.walk, settings_.seed + pass, index);
+    const std::lock_guard lock(check_mutex_);
+    weight_error_ = std::max(weight_error_, result.max_error);
+  }
+
+  size_t light_paths_;
+  SampleCounts counts_;
+  Mis mis_;
+  size_t waves_ = 1, wave_paths_ = 0;
+  VertexCache cache_;
+  std::mutex check_mutex_;
+  double weight_error_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_bdpt(const RenderContext& context,
+                                      const IntegratorSettings& settings) {
+  return std::make_unique<Bdpt>(context, settings);
+}
+
+}  // namespace janus

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "janus/camera/camera.h"
+#include "janus/film/film.h"
+#include "janus/path/counters.h"
+#include "janus/path/mis.h"
+#include "janus/path/subpath.h"
+#include "janus/render/scene.h"
+#include "janus/util/cancel.h"
+#include "janus/util/parallel.h"
+
+namespace janus {
+
+struct IntegratorSettings {
+  WalkSettings walk;
+  Heuristic heuristic = Heuristic::Balance;
+  float light_paths = 1.0f;  // per pixel
+  float connections = 1.0f;  // per camera vertex, expected
+  bool film_transparent = false;
+  uint32_t seed = 0;
+  size_t cache_bytes = size_t{256} << 20;  // upper bound for the light-vertex cache
+  bool check_weights = false;  // debug: compare weights of sampled paths with the oracle
+};
+
+// What an integrator renders with; everything outlives it.
+struct RenderContext {
+  const Scene& scene;
+  const Camera& camera;
+  Film& film;
+  ThreadPool& pool;
+  const CancelToken& cancel;
+};
+
+// Renders whole passes: one camera sample per pixel, and light paths in proportion.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  // Adds pass `pass` to the film, between begin_pass() and end_pass() by the caller. Depends on
+  // scene, settings and `pass` only. Throws Cancelled.
+  virtual void render_pass(int pass) = 0;
+
+  // Over all passes so far. Not while render_pass runs.
+  virtual Counters counters() const = 0;
+
+  // Largest |weight - definition| seen by check_weights, over `paths` joins.
+  virtual double weight_error() const { return 0.0; }
+};
+
+std::unique_ptr<Integrator> make_path_tracer(const RenderContext& context,
+                                             const IntegratorSettings& settings);
+std::unique_ptr<Integrator> make_light_tracer(const RenderContext& context,
+                                              const IntegratorSettings& settings);
+std::unique_ptr<Integrator> make_bdpt(const RenderContext& context,
+                                      const IntegratorSettings& settings);
+
+}  // namespace janus

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the integrators share: how a pass is cut into blocks, and the accounting.
+#pragma once
+
+#include <mutex>
+
+#include "janus/integrator/integrator.h"
+
+namespace janus {
+
+// Light paths per block: large enough to hide the hand-over, small enough for quick cancelling.
+inline constexpr size_t kLightBlock = 1024;
+
+class PassIntegrator : public Integrator {
+ public:
+  PassIntegrator(const RenderContext& context, const IntegratorSettings& settings)
+      : context_(context), settings_(settings) {}
+
+  Counters counters() const override { return counters_; }
+
+ protected:
+  // Blocks report their counters when they end; sums of integers do not depend on the order.
+  void add(const Counters& counters) {
+    const std::lock_guard lock(mutex_);
+    counters_ += counters;
+  }
+
+  size_t light_path_count() const {
+    return context_.scene.light_sampler.emits()
+               ? static_cast<size_t>(settings_.light_paths * context_.film.rect().pixels() + 0.5)
+               : 0;
+  }
+
+  // The sampler of a camera sample. Keyed by the pixel of the full frame: a crop shows the same
+  // samples as the whole picture.
+  Sampler camera_sampler(size_t index, int pass) const {
+    const FilmRect& rect = context_.film.rect();
+    const uint64_t x = rect.x0 + index % rect.width(), y = rect.y0 + index / rect.width();
+    return Sampler(settings_.seed, Stream::Camera, y << 32 | x, pass);
+  }
+
+  // Calls body(pixel index, Counters&) for all pixels of a row.
+  template <class Body>
+  void for_each_row(Body&& body) {
+    context_.pool.parallel_for(context_.film.rect().height(), [&](size_t row) {
+      context_.cancel.throw_if_cancelled();
+      Counters counters;
+      body(row, counters);
+      add(counters);
+    });
+  }
+
+  // A contribution that is not finite is dropped and counted.
+  static bool usable(Rgb value, Counters& counters) {
+    if (!is_finite(value)) {
+      ++counters.dropped;
+      return false;
+    }
+    return !is_black(value);
+  }
+
+  RenderContext context_;
+  IntegratorSettings settings_;
+
+ private:
+  std::mutex mutex_;
+  Counters counters_;
+};
+
+}  // namespace janus

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "janus/light/lamps.h"
+#include "janus/math/frame.h"
+#include "janus/math/warp.h"
+
+namespace janus {
+
+namespace {
+
+// Blender's area light: a rectangle or an ellipse that shines along its local -z.
+class AreaLight final : public Light {
+ public:
+  AreaLight(const LightDesc& desc, Rgb strength) : center_(desc.transform[3]) {
+    const bool two_sizes =
+        desc.shape == AreaShape::Rectangle || desc.shape == AreaShape::Ellipse;
+    ellipse_ = desc.shape == AreaShape::Disk || desc.shape == AreaShape::Ellipse;
+    half_u_ = 0.5f * desc.size * vec3(desc.transform[0]);
+    half_v_ = 0.5f * (two_sizes ? desc.size_y : desc.size) * vec3(desc.transform[1]);
+    normal_ = normalize(-vec3(desc.transform[2]));
+    const float parallelogram = 4.0f * glm::length(cross(half_u_, half_v_));
+    area_ = ellipse_ ? 0.25f * kPi * parallelogram : parallelogram;
+
+    const float half_spread = 0.5f * std::clamp(desc.spread, 0.0f, kPi);
+    full_spread_ = half_spread >= 0.5f * kPi;
+    tan_spread_ = full_spread_ ? kInfinity : std::tan(half_spread);
+    sin2_spread_ = full_spread_ ? 1.0f : sqr(std::sin(half_spread));
+    // Cycles' soft box: radiance falls as 1 - tan(theta) / tan(half_spread), normalized so that
+    // the power does not change; a series where the difference would cancel.
+    spread_scale_ = half_spread > 0.05f ? 1.0f / (tan_spread_ - half_spread)
+                                        : 3.0f / (sqr(half_spread) * half_spread);
+    radiance_ = lamp_power(desc, strength) / (kPi * (desc.normalize ? area_ : 1.0f));
+    name = desc.name;
+    visible_camera = desc.visible_camera;
+  }
+
+  float power() const override { return luminance(radiance_) * kPi * area_; }
+
+  bool hittable() const override { return true; }
+
+  std::optional<EmissionSample> sample_emission(vec2 u_position, vec2 u_direction) const override {
+    const vec3 local = square_to_cosine_cone(u_direction, sin2_spread_);
+    const vec3 direction = Frame(normal_).to_world(local);
+    const Rgb radiance = radiance_ * attenuation(local.z);
+    if (is_black(radiance)) {
+      return std::nullopt;
+    }
+    const RayDensity density = ray_density();
+    return EmissionSample{point(u_position), direction, radiance / density.value, density};
+  }
+
+  std::optional<IlluminationSample> sample_illumination(vec3 receiver, vec2 u) const override {
+    const vec3 target = point(u);
+    const vec3 d = target - receiver;
+    const float d2 = length2(d);
+    if (d2 == 0.0f) {
+      return std::nullopt;
+    }
+    const vec3 wi = d / std::sqrt(d2);
+    const float cos_light = -dot(wi, normal_);
+    const Rgb radiance = cos_light > 0.0f ? radiance_ * attenuation(cos_light) : Rgb(0.0f);
+    if (is_black(radiance)) {
+      return std::nullopt;
+    }
+    return IlluminationSample{wi,       target, d2, radiance, d2 / (area_ * cos_light),
+                              ray_density()};
+  }
+
+  float pdf_illumination(const EmissionSample& /*sample*/, vec3 endpoint,
+                         vec3 receiver) const override {
+    const vec3 d = receiver - endpoint;
+    const float d2 = length2(d);
+    const float cos_light = dot(d, normal_) / std::sqrt(d2);
+    return cos_light > 0.0f ? d2 / (area_ * cos_light) : 0.0f;
+  }
+
+  std::optional<LightHit> intersect(const Ray& ray) const override {
+    const float cos_light = -dot(ray.direction, normal_);
+    if (cos_light <= 0.0f) {
+      return std::nullopt;
+    }
+    const float t = dot(ray.origin - center_, normal_) / cos_light;
+    if (!(t > 0.0f && t < ray.t_max)) {
+      return std::nullopt;
+    }
+    // Coordinates in [-1, 1]; the axes may be sheared by the object's transform.
+    const vec3 p = ray.origin + t * ray.direction - center_;
+    const vec3 w = cross(half_u_, half_v_);
+    const float u = dot(cross(p, half_v_), w) / length2(w);
+    const float v = dot(cross(half_u_, p), w) / length2(w);
+    const bool inside = ellipse_ ? u * u + v * v <= 1.0f : std::abs(u) <= 1.0f && std::abs(v) <= 1.0f;
+    const Rgb radiance = inside ? radiance_ * attenuation(cos_light) : Rgb(0.0f);
+    if (is_black(radiance)) {
+      return std::nullopt;
+    }
+    return LightHit{t, radiance, sqr(t) / (area_ * cos_light), ray_density(), sqr(t)};
+  }
+
+ private:
+  // Uniform on the surface; directions by the cosine within the spread, so the density per
+  // projected area and solid angle is constant.
+  RayDensity ray_density() const { return {1.0f / (area_ * kPi * sin2_spread_), false}; }
+
+  vec3 point(vec2 u) const {
+    const vec2 q = ellipse_ ? square_to_disk(u) : 2.0f * u - 1.0f;
+    return center_ + q.x * half_u_ + q.y * half_v_;
+  }
+
+  float attenuation(float cos_light) const {
+    if (full_spread_) {
+      return 1.0f;
+    }
+    const float tan_angle = std::sqrt(std::max(0.0f, 1.0f - sqr(cos_light))) / cos_light;
+    return std::max(0.0f, (tan_spread_ - tan_angle) * spread_scale_);
+  }
+
+  vec3 center_, half_u_, half_v_, normal_;
+  Rgb radiance_;
+  float area_;
+  float tan_spread_, sin2_spread_, spread_scale_;
+  bool ellipse_, full_spread_;
+};
+
+}  // namespace
+
+std::unique_ptr<Light> make_area_light(const LightDesc& desc, Rgb strength) {
+  return std::make_unique<AreaLight>(desc, strength);
+}
+
+}  // namespace janus

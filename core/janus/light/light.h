@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sources of light.
+//
+// A light subpath starts with a ray, and the density of that ray is given once, per unit of
+// projected area and solid angle (dA cos(theta) d omega, the measure that free flight preserves).
+// The next vertex z_1 of the path fixes the rest: with the endpoint z_0 measured by its direction
+// from z_1, the joint density of (z_0, z_1) is ray density * |cos theta_1|, for lamps, meshes and
+// infinite lights alike (emission_density). Lights of a single point or direction carry flags; the
+// common delta is left out of every density that contains it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "janus/geometry/interaction.h"
+#include "janus/math/vec.h"
+
+namespace janus {
+
+// Density of an emitted ray. `from_point`: the light is a point, so `value` is per solid angle at
+// the light instead.
+struct RayDensity {
+  float value = 0.0f;
+  bool from_point = false;
+};
+
+// Joint density of (z_0 per solid angle at z_1, z_1 per area), given |cos| at z_1 and the squared
+// distance from z_0. The one place where endpoints change measure.
+inline float emission_density(RayDensity ray, float cos_1, float distance2) {
+  return ray.value * cos_1 / (ray.from_point ? distance2 : 1.0f);
+}
+
+// Start of a light subpath.
+struct EmissionSample {
+  vec3 origin;     // already off the emitting surface
+  vec3 direction;  // unit
+  Rgb weight;      // radiance / ray density (flux)
+  RayDensity density;
+  // Emitting surfaces: the normal on the side that emits, and the density per area with which
+  // sample_illumination draws this point.
+  vec3 normal = vec3(0.0f);
+  float pdf_area = 0.0f;
+};
+
+// Next event estimation: the light as seen from a receiver.
+struct IlluminationSample {
+  vec3 wi;          // from the receiver, unit
+  vec3 target;      // end of the shadow ray, already off the emitting surface
+  float distance2;  // to the endpoint; unused for infinite lights
+  Rgb radiance;     // for a point: intensity / distance^2
+  float pdf_solid;  // per solid angle at the receiver; 1 stands for the delta of a point
+  RayDensity emission;
+};
+
+// A light found along a ray from `origin`.
+struct LightHit {
+  float t;  // kInfinity for infinite lights
+  Rgb radiance;
+  float pdf_illumination;  // pdf_solid of sample_illumination at the ray's origin
+  RayDensity emission;
+  float distance2;
+};
+
+class Light {
+ public:
+  Light() = default;
+  virtual ~Light() = default;
+  Light(const Light&) = delete;
+  Light& operator=(const Light&) = delete;
+
+  std::string name;
+  bool visible_camera = true;
+
+  // Emitted power, watts (an estimate that guides sampling; Rgb luminance).
+  virtual float power() const = 0;
+
+  // Can rays hit it? False for points.
+  virtual bool hittable() const = 0;
+
+  // Beyond all surfaces?
+  virtual bool infinite() const { return false; }
+
+  virtual std::optional<EmissionSample> sample_emission(vec2 u_position,
+                                                        vec2 u_direction) const = 0;
+  virtual std::optional<IlluminationSample> sample_illumination(vec3 receiver, vec2 u) const = 0;
+
+  // pdf_solid with which sample_illumination at `receiver` draws the endpoint of an emitted ray.
+  virtual float pdf_illumination(const EmissionSample& sample, vec3 endpoint,
+                                 vec3 receiver) const = 0;
+
+  // Lamps and infinite lights: the light along the ray, before ray.t_max.
+  virtual std::optional<LightHit> intersect(const Ray& ray) const = 0;
+
+  // The endpoint z_0 of an emitted ray that reaches `receiver`. nullopt if the light does not
+  // shine there after all: Blender's soft point light turns its disk to each receiver.
+  virtual std::optional<vec3> endpoint(const EmissionSample& sample, vec3 receiver) const {
+    (void)receiver;
+    return sample.origin;
+  }
+};
+
+}  // namespace janus

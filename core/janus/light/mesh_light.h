@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "janus/geometry/accel.h"
+#include "janus/light/light.h"
+#include "janus/math/discrete.h"
+
+namespace janus {
+
+// The emitting triangles of one instance. Both sides shine, as in Cycles.
+class MeshLight final : public Light {
+ public:
+  // `radiance` per triangle of the instance's mesh; some triangle must emit and have an area.
+  MeshLight(const Accel& accel, const Mesh& mesh, const Instance& instance, uint32_t index,
+            std::vector<Rgb> radiance);
+
+  float power() const override { return power_; }
+  bool hittable() const override { return true; }
+  std::optional<EmissionSample> sample_emission(vec2 u_position, vec2 u_direction) const override;
+  std::optional<IlluminationSample> sample_illumination(vec3 receiver, vec2 u) const override;
+  float pdf_illumination(const EmissionSample& sample, vec3 endpoint,
+                         vec3 receiver) const override;
+
+  // Mesh lights are surfaces: the walk finds them, and asks at() then.
+  std::optional<LightHit> intersect(const Ray& /*ray*/) const override { return std::nullopt; }
+  LightHit at(const SurfaceInteraction& hit, vec3 origin, vec3 direction, Rgb radiance) const;
+
+ private:
+  struct Point {
+    SurfaceInteraction surface;
+    uint32_t triangle;
+    float pdf_area;
+  };
+  Point sample_point(vec2 u) const;
+  RayDensity ray_density(float pdf_area) const { return {0.5f * kInvPi * pdf_area, false}; }
+
+  const Accel& accel_;
+  uint32_t instance_;
+  std::vector<Rgb> radiance_;    // per triangle
+  std::vector<float> pdf_area_;  // per triangle: pmf / area, 0 where nothing shines
+  DiscreteDistribution triangles_;
+  float power_ = 0.0f;
+};
+
+}  // namespace janus

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+namespace janus {
+
+// A full-avalanche 32-bit hash ("lowbias32" constants by Wellons).
+inline uint32_t hash32(uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352dU;
+  x ^= x >> 15;
+  x *= 0x846ca68bU;
+  x ^= x >> 16;
+  return x;
+}
+
+inline uint32_t hash_combine(uint32_t seed, uint32_t value) {
+  return hash32(seed ^ (value * 0x9e3779b9U + 0x7f4a7c15U + (seed << 6) + (seed >> 2)));
+}
+
+inline uint32_t hash_combine64(uint32_t seed, uint64_t value) {
+  return hash_combine(hash_combine(seed, static_cast<uint32_t>(value)),
+                      static_cast<uint32_t>(value >> 32));
+}
+
+}  // namespace janus

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Multiple importance sampling over all (s,t) techniques of a path, in constant time per join.
+//
+// A path z_0 (light) ... z_k (camera) can be made by k+1 techniques, named by the number s of
+// vertices on the light side, in four classes with expected counts per pixel (SampleCounts):
+//   hit (s=0), nee (s=1), connection (2 <= s <= k-1), splat (s=k, one camera vertex).
+// PF_i and PR_i are the densities per area of z_i drawn from the light and from the camera side;
+// PR_{k-1} is per pixel. z_0 is measured by its direction from z_1, so PR_0 and the density pN of
+// next event estimation are per solid angle, and PF_0 PF_1 =: J is joint (see light.h).
+//
+// Along a subpath two sums are kept (Georgiev et al. 2012, in the form of Veach 1997, 10.2):
+//   A: the technique that joins here, divided by the technique that continued to here;
+//   B: all techniques further back, likewise, without the reverse pdf at the last vertex.
+// Both are kept per class and without counts, so the counts may change from pass to pass and a
+// class with count 0 needs no other code; a class for vertex merging would be one more member.
+// Russian roulette appears in no density: weights are functions of the path alone.
+// tests/core checks every weight against the definition (path/oracle.h).
+#pragma once
+
+#include <cmath>
+
+namespace janus {
+
+enum class Heuristic { Balance, Power };
+
+// Expected number of samples per pixel and pass by class. `connection` is C / v (C connections per
+// camera vertex, v cached vertices expected per light path); `splat` is the number of all light
+// paths of the pass.
+struct SampleCounts {
+  float hit = 1.0f, nee = 1.0f, connection = 0.0f, splat = 0.0f;
+};
+
+// Density ratios by class.
+struct ClassSums {
+  float hit = 0.0f, nee = 0.0f, connection = 0.0f, splat = 0.0f;
+
+  ClassSums operator*(float x) const { return {hit * x, nee * x, connection * x, splat * x}; }
+  ClassSums operator+(const ClassSums& o) const {
+    return {hit + o.hit, nee + o.nee, connection + o.connection, splat + o.splat};
+  }
+};
+
+struct MisState {
+  ClassSums a, b;
+};
+
+class Mis {
+ public:
+  Mis(Heuristic heuristic, const SampleCounts& counts)
+      : power_(heuristic == Heuristic::Power),
+        hit_(raise(counts.hit)),
+        nee_(raise(counts.nee)),
+        connection_(raise(counts.connection)),
+        splat_(raise(counts.splat)) {}
+
+  // At z_1, first vertex of a light subpath. `joint`: J; `pdf_nee`: pN; `hittable`: can a camera
+  // path reach the light?
+  MisState begin_light(float joint, float pdf_nee, bool hittable) const {
+    MisState state;
+    state.a.nee = raise(pdf_nee / joint);
+    state.b.hit = hittable ? raise(1.0f / joint) : 0.0f;
+    return state;
+  }
+
+  // At z_{k-1}, first vertex of a camera subpath, with PR_{k-1}.
+  MisState begin_camera(float pdf_area) const {
+    MisState state;
+    state.a.splat = raise(1.0f / pdf_area);
+    return state;
+  }
+
+  // What lies behind a vertex from which the walk went on: `delta` says how the event was
+  // sampled, `pdf_reverse` is the density of the opposite walk leaving the vertex backwards.
+  ClassSums behind(const MisState& state, bool delta, float pdf_reverse) const {
+    const ClassSums b = state.b * raise(pdf_reverse);
+    return delta ? b : state.a + b;
+  }
+
+  // At the next vertex of either subpath. `geometry_previous`: |cos| at the previous vertex over
+  // the squared distance; `pdf_area`: density of the new vertex.
+  MisState advance(const ClassSums& behind_previous, bool delta, float geometry_previous,
+                   float pdf_area) const {
+    MisState state;
+    state.a.connection = delta ? 0.0f : raise(1.0f / pdf_area);
+    state.b = behind_previous * raise(geometry_previous / pdf_area);
+    return state;
+  }
+
+  // s=0, k>=2: light found by the camera walk with density `pdf_solid` from z_1, where `behind`
+  // lies behind z_1 and `delta` says how z_1 scattered.
+  float weight_hit(float pdf_solid, bool delta, float pdf_nee, float joint,
+                   const ClassSums& behind) const {
+    const float nee = delta ? 0.0f : nee_ * raise(pdf_nee / pdf_solid);
+    return weight(nee + raise(joint / pdf_solid) * total(behind), hit_);
+  }
+
+  // s=1: next event estimation at z_1 with state `camera`. `pdf_hit`: density of the camera walk
+  // going to the light (0 if it cannot be hit); `pdf_forward`: of a light walk leaving z_1 towards
+  // the camera.
+  float weight_nee(float pdf_nee, float pdf_hit, float joint, const MisState& camera,
+                   float pdf_forward) const {
+    const float others = hit_ * raise(pdf_hit / pdf_nee) +
+                         raise(joint / pdf_nee) * total(camera, pdf_forward);
+    return weight(others, nee_);
+  }
+
+  // s>=2, t>=2. For each end: its state, the density per area with which the other end's walk
+  // would have drawn it, and the density with which that walk would go on.
+  float weight_connection(const MisState& light, float pdf_area_light, float pdf_on_light,
+                          const MisState& camera, float pdf_area_camera,
+                          float pdf_on_camera) const {
+    return weight(raise(pdf_area_light) * total(light, pdf_on_light) +
+                      raise(pdf_area_camera) * total(camera, pdf_on_camera),
+                  connection_);
+  }
+
+  // t=1: light subpath joined to the camera, which would have drawn the vertex with
+  // `pdf_area_light` per pixel and gone on with `pdf_on_light`.
+  float weight_splat(const MisState& light, float pdf_area_light, float pdf_on_light) const {
+    return weight(raise(pdf_area_light) * total(light, pdf_on_light), splat_);
+  }
+
+ private:
+  float raise(float x) const { return power_ ? x * x : x; }
+  float total(const ClassSums& s) const {
+    return hit_ * s.hit + nee_ * s.nee + connection_ * s.connection + splat_ * s.splat;
+  }
+  float total(const MisState& state, float pdf_on) const {
+    return total(state.a) + total(state.b) * raise(pdf_on);
+  }
+  // `others` is relative to a technique of count 1.
+  static float weight(float others, float count) {
+    const float w = count / (count + others);
+    return std::isfinite(w) ? w : 0.0f;  // 0 * inf on absurdly long specular chains
+  }
+
+  bool power_;
+  float hit_, nee_, connection_, splat_;
+};
+
+}  // namespace janus

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/render/builder.h"
+
+#include <algorithm>
+
+#include "janus/light/lamps.h"
+#include "janus/shading/compiler.h"
+#include "janus/util/error.h"
+
+namespace janus {
+
+namespace {
+
+bool is_finite(const mat4& m) {
+  for (int i = 0; i < 4; ++i) {
+    if (!janus::is_finite(vec3(m[i]))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// One commit: fills a Scene step by step, in the order in which the parts need each other.
+class Commit {
+ public:
+  Commit(Scene& scene, const CancelToken& cancel) : scene_(scene), cancel_(cancel) {}
+
+  void add_materials(const std::map<std::string, MaterialDesc>& materials) {
+    scene_.programs.push_back(default_surface());
+    for (const auto& [key, desc] : materials) {
+      program_index_[key] = static_cast<uint32_t>(scene_.programs.size());
+      const std::string& name = desc.name.empty() ? key : desc.name;
+      scene_.programs.push_back(compile(desc.graph, name, scene_.diagnostics));
+    }
+  }
+
+  void add_meshes(const std::map<std::string, MeshDesc>& meshes) {
+    for (const auto& [key, desc] : meshes) {
+      cancel_.throw_if_cancelled();
+      mesh_index_[key] = static_cast<uint32_t>(scene_.meshes.size());
+      scene_.meshes.emplace_back(key, desc, scene_.diagnostics);
+    }
+  }
+
+  void add_instances(const std::map<std::string, InstanceDesc>& instances) {
+    for (const auto& [key, desc] : instances) {
+      const auto mesh = mesh_index_.find(desc.mesh);
+      if (mesh == mesh_index_.end()) {
+        throw SceneError(key, "mesh", "there is no mesh '" + desc.mesh + "'");
+      }
+      const std::string& name = desc.name.empty() ? key : desc.name;
+      Instance instance;
+      instance.name = name;
+      instance.mesh = mesh->second;
+      instance.to_world = desc.transform;
+      const float determinant = glm::determinant(mat3(desc.transform));
+      if (!is_finite(desc.transform) || !std::isfinite(determinant) || determinant == 0.0f) {
+        warn(name, "its transform is flat or not finite; the object is left out");
+        continue;
+      }
+      instance.normal_to_world = glm::transpose(glm::inverse(mat3(desc.transform)));
+      for (const auto& material : desc.materials) {
+        instance.materials.push_back(material ? find_program(key, *material) : 0);
+      }
+      if (instance.materials.empty()) {
+        instance.materials.push_back(0);
+      }
+      scene_.instances.push_back(std::move(instance));
+    }
+  }
+
+  void build_accel() {
+    scene_.accel = std::make_unique<Accel>(scene_.meshes, scene_.instances, cancel_);
+  }
+
+  void add_mesh_lights() {
+    for (size_t i = 0; i < scene_.instances.size(); ++i) {
+      Instance& instance = scene_.instances[i];
+      const bool emits =
+          std::any_of(instance.materials.begin(), instance.materials.end(),
+                      [&](uint32_t p) { return !is_black(scene_.programs[p].emission); });
+      if (!emits) {
+        continue;
+      }
+      const Mesh& mesh = scene_.meshes[instance.mesh];
+      std::vector<Rgb> radiance;
+      radiance.reserve(mesh.triangles().size());
+      for (const Mesh::Triangle& triangle : mesh.triangles()) {
+        radiance.push_back(scene_.programs[instance.material(triangle.material)].emission);
+      }
+      auto light = std::make_unique<MeshLight>(*scene_.accel, mesh, instance,
+                                               static_cast<uint32_t>(i), std::move(radiance));
+      if (light->power() > 0.0f) {
+        instance.light = static_cast<int>(scene_.lights.size());
+        scene_.lights.push_back(std::move(light));
+      }
+    }
+  }
+
+  void add_lamps(const std::map<std::string, LightDesc>& lights) {
+    for (const auto& [key, desc] : lights) {
+      LightDesc lamp = desc;
+      if (lamp.name.empty()) {
+        lamp.name = key;
+      }
+      add_lamp(lamp);
+    }
+  }
+
+  void add_world(const WorldDesc& world) {
+    if (!world.graph) {
+      return;
+    }
+    const Program program = compile(*world.graph, world.name, scene_.diagnostics);
+    if (!program.instructions.empty()) {
+      scene_.diagnostics.push_back(
+          {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
+    }
+    if (!is_black(program.emission)) {
+      const Bounds& bounds = scene_.accel->bounds();
+      add_light(make_environment_light(program.emission, bounds.center(), bounds.radius()));
+    }
+  }
+
+  void finish() { scene_.light_sampler = LightSampler(scene_.lights); }
+
+ private:
+  void warn(const std::string& object, const std::string& message) {
+    scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
+  }
+
+  uint32_t find_program(const std::string& instance, const std::string& material) {
+    const auto it = program_index_.find(material);
+    if (it == program_index_.end()) {
+      throw SceneError(instance, "materials", "there is no material '" + material + "'");
+    }
+    return it->second;
+  }
+
+  void add_light(std::unique_ptr<Light> light) {
+    if (light->hittable()) {
+      scene_.lamps.push_back(scene_.lights.size());
+    }
+    scene_.lights.push_back(std::move(light));
+  }
+
+  void add_lamp(LightDesc& lamp) {
+    if (!is_finite(lamp.transform)) {
+      warn(lamp.name, "its transform is not finite; the light is left out");
+      return;
+    }
+    Rgb strength(1.0f);
+    if (lamp.graph) {
+      strength = compile(*lamp.graph, lamp.name, scene_.diagnostics).emission;
+    }
+    const Rgb power = lamp_power(lamp, strength);
+    if (!janus::is_finite(power)) {
+      warn(lamp.name, "its power is not finite; the light is left out");
+      return;
+    }
+    if (power.x < 0.0f || power.y < 0.0f || power.z < 0.0f) {
+      warn(lamp.name, "negative light is not supported; the light is left out");
+      return;
+    }
+    if (is_black(power)) {
+      return;
+    }
+    switch (lamp.type) {
+      case LightType::Point:
+        add_light(make_point_light(lamp, strength));
+        break;
+      case LightType::Area: {
+        const float edge = std::min(glm::length(vec3(lamp.transform[0])) * lamp.size,
+                                    glm::length(vec3(lamp.transform[1])) * lamp.size);
+        if (!(edge > 0.0f) || !(glm::length(vec3(lamp.transform[2])) > 0.0f)) {
+          warn(lamp.name, "an area light without an area does not shine; it is left out");
+          return;
+        }
+        if (lamp.spread < kMinSpread) {
+          warn(lamp.name, "a spread below 0.1 degrees is not supported; 0.1 is used");
+          lamp.spread = kMinSpread;
+        }
+        add_light(make_area_light(lamp, strength));
+        break;
+      }
+      case LightType::Spot:
+        warn(lamp.name, "spot lights are not supported yet; the light is left out");
+        break;
+      case LightType::Sun:
+        warn(lamp.name, "sun lights are not supported yet; the light is left out");
+        break;
+    }
+  }
+
+  static constexpr float kMinSpread = 0.1f * kPi / 180.0f;
+
+  Scene& scene_;
+  const CancelToken& cancel_;
+  std::map<std::string, uint32_t> mesh_index_, program_index_;
+};
+
+}  // namespace
+
+void SceneBuilder::remove(const std::string& key) {
+  meshes_.erase(key);
+  materials_.erase(key);
+  instances_.erase(key);
+  lights_.erase(key);
+}
+
+std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) const {
+  if (!camera_) {
+    throw SceneError("camera", "", "the scene has no camera");
+  }
+  if (!is_finite(camera_->transform) || !(camera_->right != camera_->left) ||
+      !(camera_->top != camera_->bottom)) {
+    throw SceneError(camera_->name, "camera", "its transform or its window is degenerate");
+  }
+  if (!(camera_->clip_end > camera_->clip_start) || !(camera_->clip_start >= 0.0f)) {
+    throw SceneError(camera_->name, "camera", "its clipping range is empty");
+  }
+  auto scene = std::make_shared<Scene>();
+  scene->camera = *camera_;
+  Commit commit(*scene, cancel);
+  commit.add_materials(materials_);
+  commit.add_meshes(meshes_);
+  commit.add_instances(instances_);
+  commit.build_accel();
+  commit.add_mesh_lights();
+  commit.add_lamps(lights_);
+  if (world_) {
+    commit.add_world(*world_);
+  }
+  commit.finish();
+  return scene;
+}
+
+}  // namespace janus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "janus/render/scene.h"
+#include "janus/scene/description.h"
+#include "janus/util/cancel.h"
+
+namespace janus {
+
+// Collects a description item by item and turns it into a Scene. Keys are the caller's; setting a
+// key again replaces the item. One thread at a time.
+class SceneBuilder {
+ public:
+  void set_mesh(const std::string& key, MeshDesc desc) { meshes_[key] = std::move(desc); }
+  void set_material(const std::string& key, MaterialDesc desc) {
+    materials_[key] = std::move(desc);
+  }
+  void set_instance(const std::string& key, InstanceDesc desc) {
+    instances_[key] = std::move(desc);
+  }
+  void set_light(const std::string& key, LightDesc desc) { lights_[key] = std::move(desc); }
+  void set_world(WorldDesc desc) { world_ = std::move(desc); }
+  void set_camera(CameraDesc desc) { camera_ = std::move(desc); }
+  void remove(const std::string& key);
+
+  // Validates everything and builds what rendering needs. Throws SceneError for what cannot be
+  // rendered, Cancelled; the rest is reported in Scene::diagnostics.
+  std::shared_ptr<const Scene> commit(const CancelToken& cancel) const;
+
+ private:
+  // Ordered maps: the scene, and so the image, does not depend on the order of the calls.
+  std::map<std::string, MeshDesc> meshes_;
+  std::map<std::string, MaterialDesc> materials_;
+  std::map<std::string, InstanceDesc> instances_;
+  std::map<std::string, LightDesc> lights_;
+  std::optional<WorldDesc> world_;
+  std::optional<CameraDesc> camera_;
+};
+
+}  // namespace janus

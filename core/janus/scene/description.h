@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The scene as plain data, in Blender's words and units. Nothing here knows of rendering.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "janus/math/vec.h"
+#include "janus/scene/node_graph.h"
+
+namespace janus {
+
+struct MeshDesc {
+  std::string name;
+  std::vector<vec3> positions;
+  std::vector<glm::uvec3> triangles;      // indices of corners
+  std::vector<uint32_t> corner_vertices;  // corner -> position; empty: corners are the positions
+  std::vector<vec3> corner_normals;       // empty: flat shading
+  std::vector<uint32_t> material_indices;  // per triangle, slot of the instance; empty: slot 0
+};
+
+struct InstanceDesc {
+  std::string name;
+  std::string mesh;                                   // key
+  mat4 transform = mat4(1.0f);                        // object to world
+  std::vector<std::optional<std::string>> materials;  // keys by slot; nullopt: default surface
+};
+
+struct MaterialDesc {
+  std::string name;
+  NodeGraph graph;
+};
+
+enum class LightType { Point, Spot, Sun, Area };
+enum class AreaShape { Square, Rectangle, Disk, Ellipse };
+
+struct LightDesc {
+  std::string name;
+  LightType type = LightType::Point;
+  mat4 transform = mat4(1.0f);  // lights shine along their local -z
+  Rgb color = Rgb(1.0f);
+  float energy = 10.0f;  // watts (sun: W/m^2)
+  float exposure = 0.0f;  // stops
+  bool normalize = true;  // energy is power; false: it does not spread over the surface
+  float radius = 0.0f;    // point, spot
+  bool soft_falloff = true;
+  AreaShape shape = AreaShape::Square;
+  float size = 0.25f, size_y = 0.25f;  // area; metres before the transform
+  float spread = kPi;                  // area; full angle, radians
+  float angle = 0.0f;                  // sun; full angle, radians
+  float spot_size = 0.785398f, spot_blend = 0.15f;
+  bool visible_camera = true;
+  std::optional<NodeGraph> graph;  // the light's own node tree
+};
+
+struct WorldDesc {
+  std::string name;
+  std::optional<NodeGraph> graph;  // nullopt: black
+};
+
+struct CameraDesc {
+  std::string name;
+  mat4 transform = mat4(1.0f);  // camera to world; looks down local -z, +y is up
+  // The full frame on the plane at distance 1.
+  float left = -0.5f, right = 0.5f, bottom = -0.5f, top = 0.5f;
+  float clip_start = 0.1f, clip_end = 1000.0f;  // distances along the view axis
+};
+
+}  // namespace janus

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/session/session.h"
+
+#include <chrono>
+
+#include "janus/util/error.h"
+
+namespace janus {
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+std::unique_ptr<Integrator> make_integrator(IntegratorType type, const RenderContext& context,
+                                            const IntegratorSettings& settings) {
+  switch (type) {
+    case IntegratorType::PathTracer:
+      return make_path_tracer(context, settings);
+    case IntegratorType::LightTracer:
+      return make_light_tracer(context, settings);
+    case IntegratorType::Bdpt:
+      break;
+  }
+  return make_bdpt(context, settings);
+}
+
+}  // namespace
+
+RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings settings)
+    : scene_(std::move(scene)), settings_(settings) {
+  settings_.validate();
+  film_.emplace(settings_.rect(), Filter(settings_.filter, settings_.filter_width));
+}
+
+RenderSession::~RenderSession() {
+  cancel();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+void RenderSession::start() {
+  const std::lock_guard lock(mutex_);
+  if (state_ != Progress::State::Waiting) {
+    throw Error("the session was started before");
+  }
+  state_ = Progress::State::Rendering;
+  start_time_ = now();
+  thread_ = std::thread([this] {
+    try {
+      run();
+      end(cancel_.cancelled() ? Progress::State::Cancelled : Progress::State::Done, nullptr);
+    } catch (const Cancelled&) {
+      end(Progress::State::Cancelled, nullptr);
+    } catch (...) {
+      end(Progress::State::Failed, std::current_exception());
+    }
+  });
+}
+
+void RenderSession::run() {
+  ThreadPool pool(settings_.threads);
+  const auto camera =
+      make_perspective_camera(scene_->camera, settings_.width, settings_.height);
+  IntegratorSettings integrator_settings;
+  // Cycles counts bounces between the first surface and the light: 0 leaves camera, surface, light.
+  integrator_settings.walk.max_edges = settings_.max_bounces + 2;
+  integrator_settings.heuristic = settings_.heuristic;
+  integrator_settings.light_paths = settings_.light_paths;
+  integrator_settings.connections = settings_.connections;
+  integrator_settings.film_transparent = settings_.film_transparent;
+  integrator_settings.seed = settings_.seed;
+  integrator_settings.cache_bytes = settings_.cache_bytes;
+  integrator_settings.check_weights = settings_.check_weights;
+  const RenderContext context{*scene_, *camera, *film_, pool, cancel_};
+  const auto integrator = make_integrator(settings_.integrator, context, integrator_settings);
+
+  for (int pass = 0; pass < settings_.samples; ++pass) {
+    cancel_.throw_if_cancelled();
+    // Only this thread and its pool write a pass, and nobody reads one that has not ended.
+    film_->begin_pass();
+    integrator->render_pass(pass);
+    const std::lock_guard lock(mutex_);
+    film_->end_pass(pool);
+    statistics_.samples = pass + 1;
+    statistics_.seconds = now() - start_time_;
+    statistics_.counters = integrator->counters();
+    statistics_.weight_error = integrator->weight_error();
+    // Stop where the next whole pass would overshoot the limit by more than half of itself.
+    const double per_pass = statistics_.seconds / (pass + 1);
+    if (settings_.seconds > 0.0 && statistics_.seconds + 0.5 * per_pass > settings_.seconds) {
+      break;
+    }
+  }
+}
+
+void RenderSession::end(Progress::State state, std::exception_ptr error) {
+  const std::lock_guard lock(mutex_);
+  state_ = state;
+  error_ = error;
+  end_time_ = now();
+  ended_.notify_all();
+}
+
+bool RenderSession::wait(double seconds) {
+  std::unique_lock lock(mutex_);
+  return ended_.wait_for(lock, std::chrono::duration<double>(seconds),
+                         [this] { return state_ > Progress::State::Rendering; });
+}
+
+Progress RenderSession::progress() const {
+  const std::lock_guard lock(mutex_);
+  Progress progress;
+  progress.state = state_;
+  progress.samples = statistics_.samples;
+  progress.target_samples = settings_.samples;
+  if (state_ == Progress::State::Waiting) {
+    return progress;
+  }
+  progress.seconds = (state_ == Progress::State::Rendering ? now() : end_time_) - start_time_;
+  if (state_ != Progress::State::Rendering) {
+    progress.remaining = 0.0;
+  } else if (statistics_.samples > 0) {
+    const double per_pass = statistics_.seconds / statistics_.samples;
+    double total = per_pass * settings_.samples;
+    if (settings_.seconds > 0.0) {
+      total = std::min(total, settings_.seconds);
+    }
+    progress.remaining = std::max(0.0, total - progress.seconds);
+  }
+  return progress;
+}
+
+Statistics RenderSession::statistics() const {
+  const std::lock_guard lock(mutex_);
+  return statistics_;
+}
+
+Image RenderSession::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return film_->develop();
+}
+
+void RenderSession::finish() {
+  {
+    std::unique_lock lock(mutex_);
+    if (state_ == Progress::State::Waiting) {
+      return;
+    }
+    ended_.wait(lock, [this] { return state_ > Progress::State::Rendering; });
+    if (error_) {
+      std::rethrow_exception(error_);
+    }
+  }
+}
+
+}  // namespace janus

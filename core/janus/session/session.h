@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "janus/image/image.h"
+#include "janus/session/settings.h"
+
+namespace janus {
+
+struct Progress {
+  int samples = 0, target_samples = 0;
+  double seconds = 0.0;             // since start()
+  std::optional<double> remaining;  // seconds, once a pass has been timed
+  enum class State { Waiting, Rendering, Done, Cancelled, Failed } state = State::Waiting;
+};
+
+struct Statistics {
+  int samples = 0;       // whole passes in the image
+  double seconds = 0.0;  // of rendering, the scene's set-up apart
+  Counters counters;
+  double weight_error = 0.0;  // with check_weights
+};
+
+// One render on threads of its own. All methods may be called from any thread; none of them waits
+// for more than a copy of the image, except wait() and finish().
+class RenderSession {
+ public:
+  // Throws SceneError for settings that cannot be rendered.
+  RenderSession(std::shared_ptr<const Scene> scene, RenderSettings settings);
+  // Cancels and joins.
+  ~RenderSession();
+  RenderSession(const RenderSession&) = delete;
+  RenderSession& operator=(const RenderSession&) = delete;
+
+  void start();
+
+  // Waits up to `seconds` for the render to end; true if it has.
+  bool wait(double seconds);
+
+  // Asks the render to stop. Whole passes are kept, the running one is dropped.
+  void cancel() { cancel_.cancel(); }
+
+  Progress progress() const;
+  Statistics statistics() const;
+
+  // The mean of the whole passes so far: RGBA of the crop, scene linear, bottom row first.
+  Image snapshot() const;
+
+  // Waits for the end and rethrows what the render threads threw. A cancelled render is no error.
+  void finish();
+
+ private:
+  void run();
+  double elapsed() const;
+  void end(Progress::State state, std::exception_ptr error);
+
+  std::shared_ptr<const Scene> scene_;
+  RenderSettings settings_;
+  CancelToken cancel_;
+  std::thread thread_;
+
+  mutable std::mutex mutex_;  // guards all below
+  std::condition_variable ended_;
+  std::optional<Film> film_;
+  Progress::State state_ = Progress::State::Waiting;
+  std::exception_ptr error_;
+  Statistics statistics_;
+  double start_time_ = 0.0, end_time_ = 0.0;
+};
+
+}  // namespace janus

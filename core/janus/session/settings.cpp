@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/session/settings.h"
+
+#include <cmath>
+
+#include "janus/util/error.h"
+
+namespace janus {
+
+void RenderSettings::validate() const {
+  const auto require = [](bool ok, const char* name, const char* message) {
+    if (!ok) {
+      throw SceneError("settings", name, message);
+    }
+  };
+  constexpr int kMaxSide = 1 << 16;
+  require(width >= 1 && width <= kMaxSide, "width", "must be from 1 to 65536 pixels");
+  require(height >= 1 && height <= kMaxSide, "height", "must be from 1 to 65536 pixels");
+  if (crop) {
+    require(crop->x0 >= 0 && crop->y0 >= 0 && crop->x1 <= width && crop->y1 <= height &&
+                crop->x0 < crop->x1 && crop->y0 < crop->y1,
+            "crop", "must be a part of the frame that is not empty");
+  }
+  require(samples >= 1, "samples", "must be at least 1");
+  require(std::isfinite(seconds) && seconds >= 0.0, "seconds", "must be finite and at least 0");
+  require(threads >= 0 && threads <= 1024, "threads", "must be from 0 to 1024");
+  require(max_bounces >= 0 && max_bounces <= 1024, "max_bounces", "must be from 0 to 1024");
+  require(std::isfinite(filter_width) && filter_width > 0.0f && filter_width <= 100.0f,
+          "filter_width", "must be above 0 and at most 100 pixels");
+  require(std::isfinite(light_paths) && light_paths >= 0.0f && light_paths <= 64.0f, "light_paths",
+          "must be from 0 to 64 per pixel");
+  require(std::isfinite(connections) && connections >= 0.0f && connections <= 64.0f, "connections",
+          "must be from 0 to 64 per vertex");
+  require(integrator != IntegratorType::LightTracer || light_paths > 0.0f, "light_paths",
+          "must be above 0 for light tracing");
+}
+
+}  // namespace janus

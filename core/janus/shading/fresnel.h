@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "janus/math/vec.h"
+
+namespace janus {
+
+// Reflectance of a smooth dielectric for unpolarised light. `cos_i` >= 0 on the incident side,
+// `eta` = index of the transmitted side / index of the incident side.
+inline float fresnel_dielectric(float cos_i, float eta) {
+  const float sin2_t = (1.0f - cos_i * cos_i) / (eta * eta);
+  if (sin2_t >= 1.0f) {
+    return 1.0f;
+  }
+  const float cos_t = std::sqrt(1.0f - sin2_t);
+  const float parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  const float perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+  return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+}
+
+// Mirrors `w` (pointing away from the surface) about unit `n`.
+inline vec3 reflect_about(vec3 w, vec3 n) { return 2.0f * dot(w, n) * n - w; }
+
+// Refracts `w` (pointing away from the surface, dot(w, n) > 0) through a surface with
+// `eta` = index on the far side / index on w's side; nullopt at total internal reflection.
+inline std::optional<vec3> refract_through(vec3 w, vec3 n, float eta) {
+  const float cos_i = dot(w, n);
+  const float sin2_t = std::max(0.0f, 1.0f - cos_i * cos_i) / (eta * eta);
+  if (sin2_t >= 1.0f) {
+    return std::nullopt;
+  }
+  const float cos_t = std::sqrt(1.0f - sin2_t);
+  return normalize(-w / eta + (cos_i / eta - cos_t) * n);
+}
+
+}  // namespace janus
