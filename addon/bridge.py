@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The only door to the native core.
+
+`janus_core` is imported here and nowhere else, on first use and after bpy, so that the add-on
+registers and can explain itself where the core is missing or does not fit.
+"""
+
+import importlib
+import sys
+
+import bpy
+
+CORE_SERIES = (0, 1)  # major and minor version of janus_core that this add-on speaks to
+
+_failure: str | None = None
+
+
+class CoreUnavailable(Exception):
+    """janus_core cannot be used; the message tells the user why and what to do."""
+
+
+def core():
+    """The module janus_core. Raises CoreUnavailable; tries again at each call."""
+    global _failure
+    try:
+        module = importlib.import_module("janus_core")
+        _check_version(module)
+    except CoreUnavailable as error:
+        _failure = str(error)
+        raise
+    except Exception as error:  # a broken native module can raise anything while it initialises
+        _failure = _explain(error)
+        raise CoreUnavailable(_failure) from error
+    _failure = None
+    return module
+
+
+def capturing_builder(builder):
+    """A builder that passes every call on to `builder` and can save them all to a file."""
+    core()
+    return importlib.import_module("janus_core.capture").CapturingBuilder(builder)
+
+
+def failure() -> str | None:
+    """Why the core could not be used when it was last asked for; cheap enough for drawing."""
+    return _failure
+
+
+def _check_version(module) -> None:
+    version = str(getattr(module, "__version__", "unknown"))
+    wanted = ".".join(map(str, CORE_SERIES))
+    if version.split(".")[:2] != wanted.split("."):
+        raise CoreUnavailable(
+            f"Janus needs its render core in version {wanted}, but found {version}. "
+            "Reinstall the Janus extension and restart Blender."
+        )
+
+
+def _explain(error: Exception) -> str:
+    python = ".".join(map(str, sys.version_info[:2]))
+    if isinstance(error, ModuleNotFoundError) and (error.name or "").startswith("janus_core"):
+        reason = f"there is no render core for Python {python} on {sys.platform}"
+    else:
+        reason = f"its render core does not load ({type(error).__name__}: {error})"
+    return (
+        f"Janus cannot render in Blender {bpy.app.version_string}: {reason}. "
+        "Install the extension zip made for this platform and restart Blender."
+    )

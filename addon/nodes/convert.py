@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Socket values as plain Python, and Blender's implicit conversions between their types."""
+
+# Luminance weights of linear Rec.709, which Blender uses where a colour feeds a number.
+LUMINANCE = (0.2126, 0.7152, 0.0722)
+
+NUMBERS = ("VALUE", "INT", "BOOLEAN")
+TRIPLES = ("VECTOR", "ROTATION")
+
+
+def plain(value):
+    """A property or default value as str, bool, number or list of them; None for anything else."""
+    if value is None or isinstance(value, str | bool | int | float):
+        return value
+    if isinstance(value, set | frozenset):
+        return sorted(value)
+    try:
+        return [plain(component) for component in value]
+    except TypeError:
+        return None
+
+
+def socket_value(socket):
+    """The value of an unlinked socket.
+
+    None stands for what Blender fills in itself: no closure, or the implicit normal, tangent or
+    texture coordinate of a vector without a field in the UI.
+    """
+    if socket.type == "SHADER" or (socket.type in TRIPLES and socket.hide_value):
+        return None
+    return plain(getattr(socket, "default_value", None))
+
+
+def convert(value, source: str, target: str):
+    """Converts a constant from one socket type to another as Cycles does; None if impossible."""
+    if value is None or source == target:
+        return value
+    if target in NUMBERS:
+        number = _to_number(value, source)
+        if number is None or target == "VALUE":
+            return number
+        return number != 0 if target == "BOOLEAN" else int(number)
+    if target == "RGBA":
+        if source in NUMBERS:
+            return [float(value)] * 3 + [1.0]
+        return [*value[:3], 1.0] if source in TRIPLES else None
+    if target in TRIPLES:
+        if source in NUMBERS:
+            return [float(value)] * 3
+        return list(value[:3]) if source in ("RGBA", *TRIPLES) else None
+    return None
+
+
+def _to_number(value, source: str) -> float | None:
+    if source in NUMBERS:
+        return float(value)
+    if source == "RGBA":
+        return sum(w * c for w, c in zip(LUMINANCE, value, strict=False))
+    if source in TRIPLES:
+        return sum(value[:3]) / 3.0
+    return None

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""scene.janus. Names and words are Cycles' where Cycles has the setting."""
+
+import bpy
+from bpy.props import (
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+# The numbers are what .blend files hold: never change or reuse one.
+INTEGRATORS = (
+    ("BDPT", "Bidirectional", "Paths from the camera and from the lights, combined", 0),
+    ("PT", "Path Tracing", "Paths from the camera only, as in Cycles", 1),
+    ("LT", "Light Tracing", "Paths from the lights only; blind to what is seen in mirrors", 2),
+)
+FILTERS = (
+    ("BOX", "Box", "Box filter", 0),
+    ("GAUSSIAN", "Gaussian", "Gaussian filter", 1),
+    ("BLACKMAN_HARRIS", "Blackman-Harris", "Blackman-Harris filter", 2),
+)
+HEURISTICS = (
+    ("BALANCE", "Balance", "Weights proportional to each technique's density", 0),
+    ("POWER", "Power", "Weights proportional to the square of each technique's density", 1),
+)
+
+
+class JanusSceneSettings(bpy.types.PropertyGroup):
+    """Render settings of Janus"""
+
+    samples: IntProperty(
+        name="Samples",
+        description="Number of samples to render for each pixel",
+        min=1,
+        max=(1 << 31) - 1,
+        soft_max=1 << 16,
+        default=64,
+    )
+    time_limit: FloatProperty(
+        name="Time Limit",
+        description="Limit the render time, without set-up (0 disables the limit)",
+        min=0.0,
+        default=0.0,
+        step=100.0,
+        unit="TIME_ABSOLUTE",
+    )
+    seed: IntProperty(
+        name="Seed",
+        description="Seed of the noise: the same seed gives the same picture",
+        min=0,
+        default=0,
+    )
+    max_bounces: IntProperty(
+        name="Total",
+        description="Total maximum number of bounces",
+        min=0,
+        max=1024,
+        default=12,
+    )
+    integrator: EnumProperty(
+        name="Integrator",
+        description="How light is found",
+        items=INTEGRATORS,
+        default="BDPT",
+    )
+    light_paths: FloatProperty(
+        name="Light Paths",
+        description="Paths traced from the lights for each pixel and sample. Zero makes "
+        "Bidirectional a path tracer, at a path tracer's cost",
+        min=0.0,
+        max=64.0,
+        soft_max=4.0,
+        default=1.0,
+    )
+    connections: FloatProperty(
+        name="Connections",
+        description="How many vertices of light paths each vertex of a camera path is "
+        "connected with",
+        min=0.0,
+        max=64.0,
+        soft_max=8.0,
+        default=1.0,
+    )
+    heuristic: EnumProperty(
+        name="Heuristic",
+        description="How the techniques that can find the same path share its light",
+        items=HEURISTICS,
+        default="BALANCE",
+    )
+    pixel_filter_type: EnumProperty(
+        name="Filter Type",
+        description="Pixel filter type",
+        items=FILTERS,
+        default="BLACKMAN_HARRIS",
+    )
+    filter_width: FloatProperty(
+        name="Filter Width",
+        description="Pixel filter width",
+        min=0.01,
+        max=10.0,
+        default=1.5,
+        subtype="PIXEL",
+    )
+    capture_path: StringProperty(
+        name="Capture",
+        description="File that the next renders save the scene description to, for "
+        "rendering without Blender",
+        subtype="FILE_PATH",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+
+
+def register():
+    bpy.utils.register_class(JanusSceneSettings)
+    bpy.types.Scene.janus = PointerProperty(type=JanusSceneSettings)
+
+
+def unregister():
+    del bpy.types.Scene.janus
+    bpy.utils.unregister_class(JanusSceneSettings)

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The F12 render of one view layer: export, build, render, hand over the pixels."""
+
+import time
+
+import bpy
+
+from .. import bridge
+from ..report import RenderCancelled
+from ..sync import sync_scene
+from ..sync.settings import frame as read_frame
+from ..sync.settings import render_settings
+from .partial import save_partial
+from .passes import LayerResult
+from .progress import Rhythm, fraction, status
+
+POLL_SECONDS = 0.05
+
+# Statistics of the last view layer that was rendered in this process, for scripts that drive
+# Blender (bpy.ops.render.render returns nothing): session.stats() of the core plus sync_seconds,
+# commit_seconds, counts (of the scene), cancelled, view_layer, frame. Empty if it failed.
+last_render: dict = {}
+
+
+def render_layer(engine, depsgraph, log) -> None:
+    """Renders the depsgraph's view layer into Blender's result.
+
+    Findings go to `log`. Whatever is raised means that the render failed; Blender has got a
+    full-size result then, too, and pixels that existed are saved in the partial file.
+    """
+    last_render.clear()
+    frame = read_frame(depsgraph, engine.is_animation)
+    result = LayerResult(engine, frame)
+    stamp = None
+    try:
+        stats = _render(engine, depsgraph, frame, result, log)
+        stamp = {
+            "version": bridge.core().__version__,
+            "samples": stats["samples"],
+            "seed": stats["seed"],
+        }
+        last_render.update(stats)
+    except RenderCancelled:
+        log.info("Stopped by the user before the first sample")
+    finally:
+        result.end()
+    if stamp:
+        result.stamp(**stamp)
+
+
+def _render(engine, depsgraph, frame, result, log) -> dict:
+    core = bridge.core()
+    settings = core.RenderSettings(**render_settings(depsgraph))
+    scene, stats = _build(core, engine, depsgraph, frame, settings, log)
+    session = core.RenderSession(scene, settings)
+    try:
+        cancelled = _run(engine, session, settings, result)
+    except Exception:
+        _save_what_there_is(session, frame, result, log)
+        raise
+    stats |= session.stats()
+    stats |= {
+        "cancelled": cancelled,
+        "seed": settings.seed,
+        "view_layer": frame.view_layer,
+        "frame": frame.number,
+    }
+    log.info(
+        f"View layer '{frame.view_layer}': {stats['samples']} samples in {stats['seconds']:.2f} s,"
+        f" export {stats['sync_seconds']:.2f} s, build {stats['commit_seconds']:.2f} s"
+    )
+    return stats
+
+
+def _build(core, engine, depsgraph, frame, settings, log):
+    """The immutable scene and the seconds that it took. Raises RenderCancelled."""
+    started = time.perf_counter()
+    builder = core.SceneBuilder()
+    capture = bridge.capturing_builder(builder) if frame.capture_path else None
+    engine.update_stats("", "Synchronizing objects")
+    sync_scene(capture or builder, depsgraph, log, engine.test_break)
+    if capture:
+        capture.save(frame.capture_path, settings)
+        log.info(f"Scene description saved as {frame.capture_path}")
+    synced = time.perf_counter()
+    engine.update_stats("", "Building scene")
+    try:
+        scene = builder.commit(poll=engine.test_break)
+    except core.Cancelled:
+        raise RenderCancelled from None
+    log.extend(scene.diagnostics)
+    log.flush(engine)  # warnings are worth most while the render can still be stopped
+    return scene, {
+        "sync_seconds": synced - started,
+        "commit_seconds": time.perf_counter() - synced,
+        "counts": dict(scene.counts),
+    }
+
+
+def _run(engine, session, settings, result) -> bool:
+    """Renders to the end or until the user stops; the pixels of all whole passes are shown.
+
+    Returns whether the user stopped it.
+    """
+    rhythm = Rhythm()
+    cancelled = False
+    session.start()
+    while not session.wait(POLL_SECONDS):
+        if engine.test_break() and not cancelled:
+            cancelled = True
+            session.cancel()
+        progress = session.progress()
+        engine.update_progress(fraction(progress, settings.seconds))
+        engine.update_stats("", status(progress))
+        if not bpy.app.background and not cancelled and rhythm.due():
+            started = time.perf_counter()
+            result.push({"Combined": session.snapshot("Combined")})
+            rhythm.shown(time.perf_counter() - started)
+    session.finish()
+    engine.update_progress(1.0)
+    result.push({"Combined": session.snapshot("Combined")})
+    return cancelled
+
+
+def _save_what_there_is(session, frame, result, log) -> None:
+    """After an error: stops the core and keeps the passes that it had finished.
+
+    Nothing here may hide the error that brought us here.
+    """
+    try:
+        session.cancel()
+        while not session.wait(POLL_SECONDS):
+            pass
+        if session.progress()["samples"] == 0:
+            return
+        pixels = session.snapshot("Combined")
+        save_partial(frame.partial_path, pixels)
+        log.info(f"What was rendered before the error is saved as {frame.partial_path}")
+        result.push({"Combined": pixels})
+    except Exception as error:
+        log.warning(f"What was rendered before the error could not be saved: {error}")

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that the depsgraph shows: objects, their instances, and the lights among them."""
+
+import numpy as np
+
+from .light import sync_light
+from .mesh import mesh_arrays
+from .visibility import UNSUPPORTED_TYPES, check_hair, check_linking, check_object
+
+# Object types that have a surface. Whatever they are, the depsgraph shows their faces as an
+# instance of type MESH beside the object itself, so only that is exported.
+SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
+
+
+class InstanceSync:
+    """Walks depsgraph.object_instances once and sends what it finds."""
+
+    def __init__(self, builder, materials, log, poll):
+        self._builder = builder
+        self._materials = materials
+        self._log = log
+        self._poll = poll
+        self._meshes = {}  # address of the evaluated mesh -> key, or None if it has no faces
+        self._checked = set()
+        self._count = 0
+
+    def run(self, depsgraph) -> None:
+        for instance in depsgraph.object_instances:
+            self._poll()
+            obj = instance.object  # transient: nothing of it may be kept
+            self._check(obj)
+            if not instance.show_self:
+                continue
+            if obj.type == "MESH":
+                self._surface(obj, instance.matrix_world)
+            elif obj.type == "LIGHT":
+                sync_light(
+                    self._builder, self._next_key("light"), obj, instance.matrix_world, self._log
+                )
+            elif obj.type in UNSUPPORTED_TYPES:
+                self._log.warning(UNSUPPORTED_TYPES[obj.type], object=obj.name)
+
+    def _surface(self, obj, matrix) -> None:
+        mesh = self._mesh(obj)
+        if mesh is None:
+            return
+        self._builder.set_instance(
+            self._next_key("instance"),
+            name=obj.name,
+            mesh=mesh,
+            transform=np.array(matrix, dtype=np.float64),
+            materials=self._materials.keys(obj),
+        )
+
+    def _mesh(self, obj) -> str | None:
+        """The key of the object's geometry, which is sent on first sight.
+
+        Geometry goes by its evaluated mesh, which is shared by all who show it unchanged. Names
+        would be wrong: instances made by Geometry Nodes carry the name of their maker.
+        """
+        identity = obj.data.as_pointer()
+        if identity not in self._meshes:
+            self._meshes[identity] = self._send_mesh(obj)
+        return self._meshes[identity]
+
+    def _send_mesh(self, obj) -> str | None:
+        try:
+            arrays = mesh_arrays(obj.to_mesh(), len(obj.material_slots))
+            if arrays is None:
+                return None
+            key = f"mesh:{len(self._meshes)}"
+            self._builder.set_mesh(key, name=obj.data.name, **arrays)
+            return key
+        finally:
+            obj.to_mesh_clear()
+
+    def _check(self, obj) -> None:
+        """Looks for unsupported settings, once per object however often it is instanced."""
+        identity = obj.original.as_pointer()
+        if identity in self._checked:
+            return
+        self._checked.add(identity)
+        check_hair(obj, self._log)
+        if obj.type in SURFACE_TYPES:
+            check_object(obj, self._log)
+        elif obj.type == "LIGHT":
+            check_linking(obj, self._log)
+
+    def _next_key(self, kind: str) -> str:
+        self._count += 1
+        return f"{kind}:{self._count}"
+

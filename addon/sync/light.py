@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lights, in Blender's own words and units."""
+
+import bpy
+import numpy as np
+
+from ..nodes import flatten_tree
+
+VISIBILITY = ("visible_diffuse", "visible_glossy", "visible_transmission")
+
+
+def sync_light(builder, key: str, obj, matrix, log) -> None:
+    """Sends the light object `obj` at `matrix`; portals, which emit nothing, are left out."""
+    light = obj.data
+    if getattr(getattr(light, "cycles", None), "is_portal", False):
+        log.info("portals are not used for sampling yet", object=obj.name)
+        return
+    check_light(obj, log)
+    builder.set_light(
+        key,
+        name=obj.name,
+        type=light.type,
+        transform=np.array(matrix, dtype=np.float64),
+        color=color(light),
+        energy=light.energy,
+        normalize=getattr(light, "normalize", True),
+        exposure=getattr(light, "exposure", 0.0),
+        visible_camera=obj.visible_camera,
+        graph=flatten_tree(light.node_tree) if has_nodes(light) else None,
+        **shape(light),
+    )
+
+
+def color(light) -> tuple[float, float, float]:
+    """The tint, with the colour of the temperature where that is in use."""
+    tint = tuple(light.color)
+    if getattr(light, "use_temperature", False):
+        return tuple(a * b for a, b in zip(tint, light.temperature_color, strict=True))
+    return tint
+
+
+def has_nodes(light) -> bool:
+    """Blender 5.2 gives each light a tree; before, use_nodes decides."""
+    if bpy.app.version >= (5, 1, 0) and light.node_tree is not None:
+        return True
+    return light.use_nodes and light.node_tree is not None
+
+
+def shape(light) -> dict:
+    """The arguments of set_light that belong to the light's type."""
+    if light.type == "AREA":
+        return {
+            "shape": light.shape,
+            "size": light.size,
+            "size_y": light.size_y,
+            "spread": light.spread,
+        }
+    if light.type == "SUN":
+        return {"angle": light.angle}
+    point = {"radius": light.shadow_soft_size, "soft_falloff": light.use_soft_falloff}
+    if light.type == "SPOT":
+        point |= {
+            "spot_size": light.spot_size,
+            "spot_blend": light.spot_blend,
+            "spot_square": light.use_square,
+        }
+    return point
+
+
+def check_light(obj, log) -> None:
+    """Names what the core does not know about this light yet."""
+    if not obj.data.use_shadow:
+        log.warning("a light without shadows is not supported, it casts them", object=obj.name)
+    hidden = [name for name in VISIBILITY if not getattr(obj, name)]
+    if hidden:
+        rays = ", ".join(name.removeprefix("visible_") for name in hidden)
+        log.warning(f"ray visibility is not supported yet ({rays})", object=obj.name)

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials: each is sent once, under a key that holds for the whole sync."""
+
+from ..nodes import diffuse_graph, flatten_tree
+from .world import uses_nodes
+
+
+class MaterialSync:
+    """Sends materials on first use."""
+
+    def __init__(self, builder, override, log):
+        self._builder = builder
+        self._override = override
+        self._log = log
+        self._sent = set()
+
+    def keys(self, obj) -> list[str | None]:
+        """The keys for the object's slots, in order; None for an empty slot."""
+        slots = [slot.material for slot in obj.material_slots]
+        if self._override is not None:
+            slots = [self._override] * max(len(slots), 1)
+        return [self._key(material) for material in slots]
+
+    def _key(self, material) -> str | None:
+        if material is None:
+            return None
+        key = f"material:{material.name_full}"
+        if key not in self._sent:
+            self._sent.add(key)
+            self._builder.set_material(key, name=material.name, graph=self._graph(material))
+        return key
+
+    def _graph(self, material) -> dict:
+        if not uses_nodes(material):
+            return diffuse_graph(material.diffuse_color)
+        tree = material.node_tree
+        output = tree.get_output_node("CYCLES") if tree else None
+        if output is None:
+            self._log.warning(
+                "there is no active output node, it renders black", material=material.name
+            )
+        elif output.inputs["Volume"].is_linked:
+            self._log.warning("volumes are not supported yet", material=material.name)
+        if output and output.inputs["Displacement"].is_linked:
+            self._log.warning("displacement is not supported yet", material=material.name)
+        return flatten_tree(tree)

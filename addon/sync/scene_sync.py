@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One way from a depsgraph to a scene, for F12, captures and tests alike."""
+
+from .camera import sync_camera
+from .instance import InstanceSync
+from .material import MaterialSync
+from .poll import Poll
+from .visibility import check_scene
+from .world import sync_world
+
+
+def sync_scene(builder, depsgraph, log, test_break=lambda: False) -> None:
+    """Sends the evaluated scene to `builder` (a SceneBuilder or anything with its methods).
+
+    Writes what cannot be rendered to `log`. Raises RenderRefused for what makes the whole render
+    pointless and RenderCancelled when test_break() says so.
+    """
+    poll = Poll(test_break)
+    poll()
+    sync_camera(builder, depsgraph, log)
+    sync_world(builder, depsgraph, log)
+    check_scene(depsgraph, log)
+    materials = MaterialSync(builder, depsgraph.view_layer_eval.material_override, log)
+    InstanceSync(builder, materials, log, poll).run(depsgraph)

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The numbers of a render: resolution, border, samples. Plain data, no core."""
+
+import os
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Frame:
+    """What Blender wants to get back for one view layer. Pixels count from the bottom left."""
+
+    width: int  # of the full frame, whatever the border
+    height: int
+    crop: tuple[int, int, int, int] | None  # x0, y0, x1, y1 inside the full frame
+    scene: str
+    view_layer: str
+    view_layers: list[str] = field(default_factory=list)
+    number: int = 1
+    partial_path: str = ""  # where to save what there is if the render fails
+    capture_path: str = ""  # where to save the scene description; empty: nowhere
+
+
+def frame(depsgraph, is_animation: bool = False) -> Frame:
+    """Reads the frame to render from the evaluated scene."""
+    scene = depsgraph.scene_eval
+    width, height = frame_size(scene.render)
+    capture = getattr(scene, "janus", None) and scene.janus.capture_path
+    return Frame(
+        width=width,
+        height=height,
+        crop=crop_window(scene.render, width, height),
+        scene=depsgraph.scene.name_full,
+        view_layer=depsgraph.view_layer_eval.name,
+        view_layers=[layer.name for layer in depsgraph.scene.view_layers],
+        number=scene.frame_current,
+        partial_path=partial_path(scene, is_animation),
+        capture_path=bpy.path.abspath(capture) if capture else "",
+    )
+
+
+def frame_size(render) -> tuple[int, int]:
+    """The full frame in pixels, rounded as Blender rounds."""
+    percent = render.resolution_percentage
+    return (
+        max(render.resolution_x * percent // 100, 1),
+        max(render.resolution_y * percent // 100, 1),
+    )
+
+
+def crop_window(render, width: int, height: int):
+    """The render border in pixels, or None. Blender truncates in single precision; so do we."""
+    if not render.use_border:
+        return None
+
+    def pixel(fraction, size):
+        return int(np.float32(fraction) * np.float32(size))
+
+    x0, x1 = pixel(render.border_min_x, width), pixel(render.border_max_x, width)
+    y0, y1 = pixel(render.border_min_y, height), pixel(render.border_max_y, height)
+    if x1 <= x0 or y1 <= y0:
+        return None
+    return (x0, y0, x1, y1)
+
+
+def render_settings(depsgraph) -> dict:
+    """The keyword arguments of janus_core.RenderSettings."""
+    scene = depsgraph.scene_eval
+    render, janus = scene.render, scene.janus
+    width, height = frame_size(render)
+    return {
+        "width": width,
+        "height": height,
+        "crop": crop_window(render, width, height),
+        "samples": depsgraph.view_layer_eval.samples or janus.samples,
+        "seconds": janus.time_limit,
+        "seed": janus.seed,
+        "threads": render.threads if render.threads_mode == "FIXED" else 0,
+        "max_bounces": janus.max_bounces,
+        "integrator": janus.integrator.lower(),
+        "filter": janus.pixel_filter_type,
+        "filter_width": janus.filter_width,
+        "light_paths": janus.light_paths,
+        "connections": janus.connections,
+        "heuristic": janus.heuristic,
+        "film_transparent": render.film_transparent,
+    }
+
+
+def partial_path(scene, is_animation: bool) -> str:
+    """`<output>_partial.exr`, beside the file that Blender would have written."""
+    path = scene.render.frame_path(frame=scene.frame_current)
+    if not is_animation:
+        path = bpy.path.abspath(scene.render.filepath)
+    if not path or os.path.basename(path) == "":
+        path = os.path.join(path or bpy.app.tempdir, "janus")
+    stem, extension = os.path.splitext(path)
+    if extension.lower() not in bpy.path.extensions_image:
+        stem = path
+    return f"{stem}_partial.exr"

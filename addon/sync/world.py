@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The world: its node tree, or its plain colour."""
+
+import bpy
+
+from ..nodes import flatten_tree
+
+
+def sync_world(builder, depsgraph, log) -> None:
+    """Sends the world of the view layer; no world is black."""
+    layer = depsgraph.view_layer_eval
+    world = getattr(layer, "world_override", None) or depsgraph.scene_eval.world
+    if world is None:
+        builder.set_world(name="", graph=None)
+        return
+    if uses_nodes(world):
+        output = world.node_tree and world.node_tree.get_output_node("CYCLES")
+        if output and output.inputs["Volume"].is_linked:
+            log.warning("volumes are not supported yet", object=world.name)
+        graph = flatten_tree(world.node_tree)
+    else:
+        graph = background_graph(world.color)
+    builder.set_world(name=world.name, graph=graph)
+
+
+def uses_nodes(owner) -> bool:
+    """use_nodes of a world or material: it counts before Blender 5.0 only."""
+    return bpy.app.version >= (5, 0, 0) or owner.use_nodes
+
+
+def background_graph(color) -> dict:
+    inputs = {"Color": [*color[:3], 1.0], "Strength": 1.0}
+    node = {"name": "Background", "type": "BACKGROUND", "inputs": inputs, "properties": {}}
+    return {"nodes": [node], "surface": {"link": ["Background", "Background"]}}

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Panels. Small ones of our own, and Blender's own opened to this engine."""
+
+import bpy
+
+from . import data, diagnostics, engine_panels, material, scene
+
+CLASSES = (*diagnostics.CLASSES, *scene.CLASSES, *material.CLASSES, *data.CLASSES)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    engine_panels.register()
+
+
+def unregister():
+    engine_panels.unregister()
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

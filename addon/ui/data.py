@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""World and light properties. Cameras and objects have Blender's own panels."""
+
+import bpy
+
+from .engine_panels import JanusPanel
+from .material import draw_surface, draw_use_nodes
+
+
+class JANUS_WORLD_PT_surface(JanusPanel, bpy.types.Panel):
+    bl_label = "Surface"
+    bl_context = "world"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.world
+
+    def draw(self, context):
+        world = context.world
+        if bpy.app.version < (5, 0, 0):
+            draw_use_nodes(self.layout, world)
+            if not world.use_nodes:
+                self.column().prop(world, "color")
+                return
+        self.layout.use_property_split = True
+        draw_surface(self.layout, world.node_tree)
+
+
+class LightPanel(JanusPanel):
+    bl_context = "data"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.light
+
+
+class JANUS_LIGHT_PT_light(LightPanel, bpy.types.Panel):
+    bl_label = "Light"
+
+    def draw(self, context):
+        light = context.light
+        self.layout.row().prop(light, "type", expand=True)
+        column = self.column()
+        self._draw_color(column, light)
+        column.separator()
+        column.prop(light, "energy", text="Strength" if light.type == "SUN" else "Power")
+        for name in ("exposure", "normalize"):
+            if hasattr(light, name):
+                column.prop(light, name)
+        column.separator()
+        self._draw_shape(column, light)
+
+    @staticmethod
+    def _draw_color(column, light):
+        if hasattr(light, "use_temperature"):
+            column.prop(light, "use_temperature")
+            if light.use_temperature:
+                column.prop(light, "temperature")
+        tinted = getattr(light, "use_temperature", False)
+        column.prop(light, "color", text="Tint" if tinted else "Color")
+
+    @staticmethod
+    def _draw_shape(column, light):
+        if light.type in ("POINT", "SPOT"):
+            column.prop(light, "use_soft_falloff")
+            column.prop(light, "shadow_soft_size", text="Radius")
+        elif light.type == "SUN":
+            column.prop(light, "angle")
+        elif light.type == "AREA":
+            column.prop(light, "shape")
+            if light.shape in ("SQUARE", "DISK"):
+                column.prop(light, "size")
+            else:
+                column.prop(light, "size", text="Size X")
+                column.prop(light, "size_y", text="Y")
+            column.prop(light, "spread")
+
+
+class JANUS_LIGHT_PT_beam(LightPanel, bpy.types.Panel):
+    bl_label = "Beam Shape"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.light.type == "SPOT"
+
+    def draw(self, context):
+        light = context.light
+        column = self.column()
+        column.prop(light, "spot_size", text="Spot Size")
+        column.prop(light, "spot_blend", text="Blend", slider=True)
+        column.prop(light, "use_square")
+        column.prop(light, "show_cone")
+
+
+class JANUS_LIGHT_PT_nodes(LightPanel, bpy.types.Panel):
+    bl_label = "Nodes"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        draw_use_nodes(self.layout, context.light)
+        if context.light.node_tree and getattr(context.light, "use_nodes", True):
+            self.layout.use_property_split = True
+            draw_surface(self.layout, context.light.node_tree)
+
+
+CLASSES = (
+    JANUS_WORLD_PT_surface,
+    JANUS_LIGHT_PT_light,
+    JANUS_LIGHT_PT_beam,
+    JANUS_LIGHT_PT_nodes,
+)

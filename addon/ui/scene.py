@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Render and view layer properties, in the places and words of Cycles."""
+
+import bpy
+
+from .engine_panels import JanusPanel
+
+
+class JANUS_RENDER_PT_sampling(JanusPanel, bpy.types.Panel):
+    bl_label = "Sampling"
+    bl_context = "render"
+
+    def draw(self, context):
+        column = self.column()
+        column.prop(context.scene.janus, "samples")
+        column.prop(context.scene.janus, "time_limit")
+        column.prop(context.scene.janus, "seed")
+
+
+class JANUS_RENDER_PT_light_paths(JanusPanel, bpy.types.Panel):
+    bl_label = "Light Paths"
+    bl_context = "render"
+
+    def draw(self, context):
+        self.column().prop(context.scene.janus, "max_bounces", text="Max Bounces")
+
+
+class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
+    bl_label = "Bidirectional"
+    bl_context = "render"
+
+    def draw(self, context):
+        janus = context.scene.janus
+        column = self.column()
+        column.prop(janus, "integrator")
+        column = column.column()
+        column.active = janus.integrator == "BDPT"
+        column.prop(janus, "light_paths")
+        column.prop(janus, "connections")
+        column.prop(janus, "heuristic")
+
+
+class JANUS_RENDER_PT_film(JanusPanel, bpy.types.Panel):
+    bl_label = "Film"
+    bl_context = "render"
+
+    def draw(self, context):
+        janus = context.scene.janus
+        column = self.column()
+        column.prop(janus, "pixel_filter_type", text="Pixel Filter")
+        if janus.pixel_filter_type != "BOX":
+            column.prop(janus, "filter_width", text="Width")
+        column.prop(context.scene.render, "film_transparent", text="Transparent")
+
+
+class JANUS_RENDER_PT_performance(JanusPanel, bpy.types.Panel):
+    bl_label = "Performance"
+    bl_context = "render"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        render = context.scene.render
+        column = self.column()
+        column.prop(render, "threads_mode")
+        threads = column.column()
+        threads.enabled = render.threads_mode == "FIXED"
+        threads.prop(render, "threads")
+
+
+class JANUS_VIEWLAYER_PT_override(JanusPanel, bpy.types.Panel):
+    bl_label = "Override"
+    bl_context = "view_layer"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layer = context.view_layer
+        column = self.column()
+        column.prop(layer, "material_override")
+        if hasattr(layer, "world_override"):
+            column.prop(layer, "world_override")
+        column.prop(layer, "samples")
+
+
+CLASSES = (
+    JANUS_RENDER_PT_sampling,
+    JANUS_RENDER_PT_light_paths,
+    JANUS_RENDER_PT_bidirectional,
+    JANUS_RENDER_PT_film,
+    JANUS_RENDER_PT_performance,
+    JANUS_VIEWLAYER_PT_override,
+)

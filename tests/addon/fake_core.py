@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Stands in for janus_core: records what is built, "renders" a constant colour."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+
+class Recorder:
+    """Has the methods of SceneBuilder and keeps their arguments, arrays copied."""
+
+    def __init__(self, diagnostics=()):
+        self.meshes, self.materials, self.instances, self.lights = {}, {}, {}, {}
+        self.world = self.camera = None
+        self.diagnostics = list(diagnostics)
+
+    @staticmethod
+    def _copy(arguments):
+        return {k: v.copy() if isinstance(v, np.ndarray) else v for k, v in arguments.items()}
+
+    def set_mesh(self, key, **arguments):
+        assert key not in self.meshes
+        self.meshes[key] = self._copy(arguments)
+
+    def set_material(self, key, *, name, graph):
+        assert key not in self.materials
+        self.materials[key] = {"name": name, "graph": graph}
+
+    def set_instance(self, key, **arguments):
+        assert key not in self.instances
+        self.instances[key] = self._copy(arguments)
+
+    def set_light(self, key, **arguments):
+        assert key not in self.lights
+        self.lights[key] = self._copy(arguments)
+
+    def set_world(self, **arguments):
+        self.world = arguments
+
+    def set_camera(self, **arguments):
+        self.camera = self._copy(arguments)
+
+    def commit(self, poll=None):
+        return SimpleNamespace(
+            diagnostics=self.diagnostics, counts={"instances": len(self.instances)}
+        )
+
+    # What tests ask for.
+
+    def by_name(self, kind="instances"):
+        return {item["name"]: item for item in getattr(self, kind).values()}
+
+    def mesh_of(self, object_name):
+        return self.meshes[self.by_name()[object_name]["mesh"]]
+
+    def materials_of(self, object_name):
+        keys = self.by_name()[object_name]["materials"]
+        return [key and self.materials[key]["name"] for key in keys]
+
+
+class FakeCore:
+    """The module janus_core. Set `script` to decide what a session does at each wait()."""
+
+    __version__ = "0.1.9"
+
+    class Cancelled(RuntimeError):
+        pass
+
+    def __init__(self):
+        self.builder = None
+        self.settings = None
+        self.sessions = []
+        self.diagnostics = []
+        self.color = (0.25, 0.5, 0.75, 1.0)
+        self.script = lambda session: None  # may raise, cancel, count up session.samples
+
+    def SceneBuilder(self):  # noqa: N802
+        self.builder = Recorder(self.diagnostics)
+        return self.builder
+
+    def RenderSettings(self, **settings):  # noqa: N802
+        self.settings = SimpleNamespace(**settings)
+        return self.settings
+
+    def RenderSession(self, scene, settings):  # noqa: N802
+        self.sessions.append(FakeSession(self, settings))
+        return self.sessions[-1]
+
+
+class FakeSession:
+    """Finishes one sample with each wait()."""
+
+    def __init__(self, core, settings):
+        self.core, self.settings = core, settings
+        self.samples, self.cancelled, self.snapshots = 0, False, 0
+
+    def start(self):
+        pass
+
+    def wait(self, seconds):
+        if self.cancelled:
+            return True
+        self.core.script(self)
+        self.samples += 1
+        return self.samples >= self.settings.samples
+
+    def cancel(self):
+        self.cancelled = True
+
+    def finish(self):
+        pass
+
+    def progress(self):
+        return {
+            "samples": self.samples,
+            "target_samples": self.settings.samples,
+            "seconds": 0.1 * self.samples,
+            "remaining": None,
+            "state": "rendering",
+        }
+
+    def snapshot(self, name):
+        assert name == "Combined"
+        self.snapshots += 1
+        x0, y0, x1, y1 = self.settings.crop or (0, 0, self.settings.width, self.settings.height)
+        pixels = np.empty((y1 - y0, x1 - x0, 4), dtype=np.float32)
+        pixels[:] = self.core.color if self.samples else 0.0
+        return pixels
+
+    def stats(self):
+        return {"samples": self.samples, "seconds": 0.1 * self.samples}

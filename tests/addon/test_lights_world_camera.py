@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lights, the world and the camera as the exporter sends them."""
+
+import math
+
+import bpy
+import numpy as np
+import pytest
+from conftest import add_light, add_square, messages
+from mathutils import Matrix, Vector
+
+
+def one_light(recorder):
+    assert len(recorder.lights) == 1
+    return next(iter(recorder.lights.values()))
+
+
+def test_point_light(scene, export):
+    light = add_light("POINT", "Lamp")
+    light.location = (1, 2, 3)
+    light.data.energy = 500.0
+    light.data.color = (1.0, 0.5, 0.25)
+    light.data.shadow_soft_size = 0.3
+    light.data.use_soft_falloff = False
+    sent = one_light(export())
+    assert (sent["name"], sent["type"], sent["energy"]) == ("Lamp", "POINT", 500.0)
+    assert sent["color"] == (1.0, 0.5, 0.25)
+    assert sent["radius"] == pytest.approx(0.3) and sent["soft_falloff"] is False
+    assert list(sent["transform"][:3, 3]) == [1, 2, 3]
+    assert sent["normalize"] is True and sent["exposure"] == 0.0
+    assert sent["visible_camera"] is light.visible_camera
+
+
+def test_area_spot_and_sun(scene, export):
+    area = add_light("AREA", "Area").data
+    area.shape, area.size, area.size_y, area.spread = "RECTANGLE", 2.0, 3.0, 1.0
+    spot = add_light("SPOT", "Spot").data
+    spot.spot_size, spot.spot_blend, spot.use_square = 0.5, 0.25, True
+    add_light("SUN", "Sun").data.angle = 0.1
+    lights = export().by_name("lights")
+    sent = lights["Area"]
+    assert (sent["shape"], sent["size"], sent["size_y"], sent["spread"]) == ("RECTANGLE", 2, 3, 1)
+    sent = lights["Spot"]
+    assert (sent["spot_size"], sent["spot_blend"], sent["spot_square"]) == (0.5, 0.25, True)
+    assert lights["Sun"]["angle"] == pytest.approx(0.1)
+
+
+def test_newer_light_settings(scene, export):
+    light = add_light("POINT").data
+    if not hasattr(light, "exposure"):
+        pytest.skip("this Blender has no light exposure")
+    light.exposure, light.normalize = 2.0, False
+    light.use_temperature, light.temperature = True, 3000.0
+    light.color = (0.5, 1.0, 1.0)
+    sent = one_light(export())
+    assert sent["exposure"] == 2.0 and sent["normalize"] is False
+    red, green, blue = light.temperature_color
+    assert sent["color"] == pytest.approx((0.5 * red, green, blue))
+    assert red > blue
+
+
+def test_light_nodes(scene, export):
+    light = add_light("POINT").data
+    if light.node_tree is None:
+        assert one_light(export())["graph"] is None
+        light.use_nodes = True
+    light.node_tree.nodes["Emission"].inputs["Strength"].default_value = 3.0
+    graph = one_light(export())["graph"]
+    assert [node["type"] for node in graph["nodes"]] == ["EMISSION"]
+    assert graph["nodes"][0]["inputs"]["Strength"] == 3.0
+
+
+def test_portals_emit_nothing(scene, export):
+    light = add_light("AREA")
+    light.data.cycles.is_portal = True
+    assert export().lights == {}
+
+
+def test_lights_in_collection_instances(scene, export):
+    collection = bpy.data.collections.new("Lamps")
+    light = add_light("POINT")
+    scene.collection.objects.unlink(light)
+    collection.objects.link(light)
+    for x in (1.0, 2.0):
+        empty = bpy.data.objects.new("Empty", None)
+        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        empty.location.x = x
+        scene.collection.objects.link(empty)
+    places = sorted(item["transform"][0, 3] for item in export().lights.values())
+    assert places == [1.0, 2.0]
+
+
+def test_no_world_is_black(scene, export):
+    scene.world = None
+    assert export().world == {"name": "", "graph": None}
+
+
+def test_world_nodes_and_plain_color(scene, export):
+    scene.world = world = bpy.data.worlds.new("Sky")
+    if bpy.app.version < (5, 0, 0):
+        world.color = (0.1, 0.2, 0.3)
+        node = export().world["graph"]["nodes"][0]
+        assert node["inputs"]["Color"] == pytest.approx([0.1, 0.2, 0.3, 1.0])
+        world.use_nodes = True
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = (1, 0, 0, 1)
+    sent = export().world
+    assert sent["name"] == "Sky"
+    assert sent["graph"]["surface"] == {"link": ["Background", "Background"]}
+    assert sent["graph"]["nodes"][0]["inputs"]["Color"] == [1, 0, 0, 1]
+
+
+def test_material_without_nodes(scene, export):
+    if bpy.app.version >= (5, 0, 0):
+        pytest.skip("use_nodes means nothing from Blender 5.0 on")
+    material = bpy.data.materials.new("Plain")
+    material.diffuse_color = (0.1, 0.2, 0.3, 1.0)
+    add_square().data.materials.append(material)
+    graph = next(iter(export().materials.values()))["graph"]
+    assert graph["nodes"][0]["type"] == "BSDF_DIFFUSE"
+    assert graph["nodes"][0]["inputs"]["Color"] == pytest.approx([0.1, 0.2, 0.3, 1.0])
+
+
+def screen_position(scene, point):
+    """Where Blender sees a world point, 0 to 1 from the bottom left: its own projection."""
+    from bpy_extras.object_utils import world_to_camera_view
+
+    return world_to_camera_view(scene, scene.camera, Vector(point))[:2]
+
+
+def window_position(camera, point):
+    """The same by what was sent to the core."""
+    local = np.linalg.inv(camera["transform"]) @ np.array([*point, 1.0])
+    x, y = local[:2] / -local[2]
+    left, right, bottom, top = camera["window"]
+    return (x - left) / (right - left), (y - bottom) / (top - bottom)
+
+
+@pytest.mark.parametrize("size", [(160, 90), (90, 160)])
+@pytest.mark.parametrize("fit", ["AUTO", "HORIZONTAL", "VERTICAL"])
+def test_camera_window(scene, export, size, fit):
+    scene.render.resolution_x, scene.render.resolution_y = size
+    scene.render.pixel_aspect_x = 1.5
+    data = scene.camera.data
+    data.lens, data.sensor_fit, data.sensor_height = 35.0, fit, 20.0
+    data.shift_x, data.shift_y = 0.1, -0.2
+    data.clip_start, data.clip_end = 0.5, 50.0
+    scene.camera.matrix_world = Matrix.LocRotScale(
+        (1, 2, 8), Matrix.Rotation(0.3, 3, (1, 1, 0)), (2, 3, 4)
+    )
+    sent = export().camera
+    assert (sent["type"], sent["clip_start"], sent["clip_end"]) == ("PERSP", 0.5, 50.0)
+    axes = sent["transform"][:3, :3]
+    assert axes.T @ axes == pytest.approx(np.eye(3), abs=1e-6)
+    scene.camera.scale = (1, 1, 1)  # world_to_camera_view does not take a scale out
+    bpy.context.view_layer.update()
+    for point in ((0, 0, 0), (1, -1, 0.5), (-2, 1, 1)):
+        assert window_position(sent, point) == pytest.approx(
+            screen_position(scene, point), abs=1e-5
+        )
+
+
+def test_default_camera_window(scene, export):
+    left, right, bottom, top = export().camera["window"]
+    data = scene.camera.data
+    assert right == pytest.approx(0.5 * data.sensor_width / data.lens) == pytest.approx(-left)
+    assert top == pytest.approx(0.75 * right) == pytest.approx(-bottom)
+    assert math.isclose(2 * math.atan(right), data.angle_x, rel_tol=1e-5)
+
+
+@pytest.mark.parametrize("kind", ["ORTHO", "PANO"])
+def test_other_cameras_are_refused_by_name(scene, export, kind):
+    scene.camera.data.type = kind
+    with pytest.raises(RuntimeError, match="Camera 'Camera' is (orthographic|panoramic)"):
+        export()
+    assert len(messages("ERROR")) == 1
