@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scenes for the tests of whole pictures: captured once through Blender, rendered without it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+DRIVER = ROOT / "scenes" / "render.py"
+
+# What is captured: a scene, and the size at which the statistics are made.
+CAPTURES = {
+    "diffuse_box": (48, 48),
+    "glass_box": (48, 48),
+    "hero_soft": (64, 40),
+}
+
+
+def drive(*arguments: object, timeout: float = 300.0) -> subprocess.CompletedProcess:
+    """Runs `./dev render` with the arguments; its own Python process, as bpy wants one."""
+    command = [sys.executable, str(DRIVER), *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=timeout)
+
+
+def driven(*arguments: object) -> str:
+    """The same, but it must succeed; what it printed."""
+    result = drive(*arguments)
+    assert result.returncode == 0, f"render {arguments} failed:\n{result.stdout}{result.stderr}"
+    return result.stdout
+
+
+class Captured:
+    """A captured scene, committed once; `render` makes one picture of it, [H, W, 4]."""
+
+    def __init__(self, path: Path):
+        import janus_core
+        from janus_core import capture
+
+        self._core = janus_core
+        self.path = path
+        builder, self.settings = capture.load(str(path))
+        self.scene = builder.commit()
+
+    def render(self, **changes: object) -> np.ndarray:
+        settings = self._core.RenderSettings(**{**self.settings.to_dict(), **changes})
+        session = self._core.RenderSession(self.scene, settings)
+        session.start()
+        while not session.wait(1.0):
+            pass
+        session.finish()
+        return session.snapshot("Combined")
+
+    def series(self, integrator: str, samples: int, seeds: int, **changes: object) -> list:
+        """Independent pictures; no two integrators ever share a seed."""
+        first = 1000 * ("pt", "lt", "bdpt").index(integrator) + 1
+        return [
+            self.render(integrator=integrator, samples=samples, seed=first + i, **changes)
+            for i in range(seeds)
+        ]
+
+
+@pytest.fixture(scope="session")
+def captured(tmp_path_factory):
+    """captured(scene) -> Captured. Each scene goes through Blender once."""
+    folder = tmp_path_factory.mktemp("captures")
+    made: dict[str, Captured] = {}
+
+    def get(name: str) -> Captured:
+        if name not in made:
+            path = folder / f"{name}.npz"
+            width, height = CAPTURES[name]
+            driven(
+                *(name, "--resolution", f"{width}x{height}", "--samples", 1),
+                *("--capture", path, "--output", folder / f"{name}.exr"),
+            )
+            made[name] = Captured(path)
+        return made[name]
+
+    return get
