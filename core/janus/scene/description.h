@@ -52,6 +52,7 @@ struct LightDesc {
   float spread = kPi;                  // area; full angle, radians
   float angle = 0.0f;                  // sun; full angle, radians
   float spot_size = 0.785398f, spot_blend = 0.15f;
+  bool spot_square = false;
   bool visible_camera = true;
   std::optional<NodeGraph> graph;  // the light's own node tree
 };

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "bind.h"
+#include "janus/render/builder.h"
+#include "janus/util/error.h"
+
+namespace janus::python {
+
+namespace {
+
+using namespace py::literals;
+using Key = const std::string&;
+using Numbers = std::vector<float>;
+
+constexpr EnumName<LightType> kLightTypes[] = {{"POINT", LightType::Point},
+                                               {"SPOT", LightType::Spot},
+                                               {"SUN", LightType::Sun},
+                                               {"AREA", LightType::Area}};
+constexpr EnumName<AreaShape> kAreaShapes[] = {{"SQUARE", AreaShape::Square},
+                                               {"RECTANGLE", AreaShape::Rectangle},
+                                               {"DISK", AreaShape::Disk},
+                                               {"ELLIPSE", AreaShape::Ellipse}};
+constexpr EnumName<Severity> kSeverities[] = {
+    {"INFO", Severity::Info}, {"WARNING", Severity::Warning}, {"ERROR", Severity::Error}};
+
+// --- Arrays ---------------------------------------------------------------------------------------
+
+std::string shape_of(const py::array& a) {
+  return py::str(a.attr("shape")).cast<std::string>();
+}
+
+// Checks for [N, columns] (columns 0: [N]) and returns N.
+size_t rows(Key key, const char* path, const py::array& a, py::ssize_t columns) {
+  const bool ok = columns ? a.ndim() == 2 && a.shape(1) == columns : a.ndim() == 1;
+  if (!ok) {
+    throw SceneError(key, path,
+                     "the shape must be " +
+                         (columns ? "(N, " + std::to_string(columns) + ")" : "(N,)") + ", not " +
+                         shape_of(a));
+  }
+  return static_cast<size_t>(a.shape(0));
+}
+
+std::vector<vec3> to_vectors(Key key, const char* path, const py::array& a) {
+  const char kind = a.dtype().kind();
+  if (kind != 'f' && kind != 'i' && kind != 'u') {
+    throw SceneError(key, path, "must hold numbers");
+  }
+  const size_t count = rows(key, path, a, 3);
+  const auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(a);
+  const auto* first = reinterpret_cast<const vec3*>(values.data());
+  return {first, first + count};
+}
+
+// Indices of any integer type; the core checks the upper bound.
+std::vector<uint32_t> to_indices(Key key, const char* path, const py::array& a,
+                                 py::ssize_t columns) {
+  const char kind = a.dtype().kind();
+  if (kind != 'i' && kind != 'u') {
+    throw SceneError(key, path, "must hold integers");
+  }
+  rows(key, path, a, columns);
+  const auto values = py::array_t<int64_t, py::array::c_style | py::array::forcecast>::ensure(a);
+  std::vector<uint32_t> result(values.size());
+  for (size_t i = 0; i < result.size(); ++i) {
+    const int64_t value = values.data()[i];
+    if (value < 0 || value > UINT32_MAX) {
+      const size_t row = columns ? i / columns : i;
+      throw SceneError(key, path + ("[" + std::to_string(row) + "]"),
+                       "the index " + std::to_string(value) + " is out of range");
+    }
+    result[i] = static_cast<uint32_t>(value);
+  }
+  return result;
+}
+
+// Anything that NumPy makes an array of.
+py::array to_array(const py::object& value) {
+  auto a = py::array::ensure(value);
+  if (!a) {
+    throw py::type_error("not an array of numbers");
+  }
+  return a;
+}
+
+std::optional<py::array> optional_array(const py::object& value) {
+  if (value.is_none()) {
+    return std::nullopt;
+  }
+  return to_array(value);
+}
+
+mat4 to_matrix(Key key, const py::object& value) {
+  const auto a = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
+  if (!a || a.ndim() != 2 || a.shape(0) != 4 || a.shape(1) != 4) {
+    PyErr_Clear();
+    throw SceneError(key, "transform", "must be a 4x4 matrix of numbers");
+  }
+  mat4 result;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      result[column][row] = static_cast<float>(a.at(row, column));
+    }
+  }
+  return result;
+}
+
+// --- Builder --------------------------------------------------------------------------------------
+
+void set_mesh(SceneBuilder& self, Key key, std::string name, const py::object& positions,
+              const py::object& triangles, const py::object& corner_vertices,
+              const py::object& corner_normals, const py::object& material_indices) {
+  MeshDesc desc;
+  desc.name = std::move(name);
+  desc.positions = to_vectors(key, "positions", to_array(positions));
+  const auto corners = to_indices(key, "triangles", to_array(triangles), 3);
+  desc.triangles.reserve(corners.size() / 3);
+  for (size_t i = 0; i < corners.size(); i += 3) {
+    desc.triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
+  }
+  if (const auto a = optional_array(corner_vertices)) {
+    desc.corner_vertices = to_indices(key, "corner_vertices", *a, 0);
+  }
+  if (const auto a = optional_array(corner_normals)) {
+    desc.corner_normals = to_vectors(key, "corner_normals", *a);
+  }
+  if (const auto a = optional_array(material_indices)) {
+    desc.material_indices = to_indices(key, "material_indices", *a, 0);
+  }
+  self.set_mesh(key, std::move(desc));
+}
+
+void set_light(SceneBuilder& self, Key key, std::string name, const std::string& type,
+               const py::object& transform, const std::array<float, 3>& color, float energy, float radius,
+               bool soft_falloff, const std::string& shape, float size, float size_y, float spread,
+               float spot_size, float spot_blend, bool spot_square, float angle, bool normalize,
+               float exposure, bool visible_camera, const std::optional<py::dict>& graph) {
+  LightDesc desc;
+  desc.name = std::move(name);
+  desc.type = from_name(kLightTypes, type, "light type");
+  desc.transform = to_matrix(key, transform);
+  desc.color = Rgb(color[0], color[1], color[2]);
+  desc.energy = energy;
+  desc.exposure = exposure;
+  desc.normalize = normalize;
+  desc.radius = radius;
+  desc.soft_falloff = soft_falloff;
+  desc.shape = from_name(kAreaShapes, shape, "area shape");
+  desc.size = size;
+  desc.size_y = size_y;
+  desc.spread = spread;
+  desc.angle = angle;
+  desc.spot_size = spot_size;
+  desc.spot_blend = spot_blend;
+  desc.spot_square = spot_square;
+  desc.visible_camera = visible_camera;
+  if (graph) {
+    desc.graph = to_graph(key, *graph);
+  }
+  self.set_light(key, std::move(desc));
+}
+
+void set_camera(SceneBuilder& self, std::string name, const std::string& type,
+                const py::object& transform, const std::array<float, 4>& window, float clip_start,
+                float clip_end) {
+  if (type != "PERSP") {
+    throw SceneError(name, "type", "only PERSP cameras can be rendered, not " + type);
+  }
+  CameraDesc desc;
+  desc.transform = to_matrix(name, transform);
+  desc.name = std::move(name);
+  desc.left = window[0];
+  desc.right = window[1];
+  desc.bottom = window[2];
+  desc.top = window[3];
+  desc.clip_start = clip_start;
+  desc.clip_end = clip_end;
+  self.set_camera(std::move(desc));
+}
+
+// Builds on a thread of its own, so that `poll` (which may call into Blender) runs in the thread
+// that called, with the GIL, and everybody else gets the GIL in between.
+std::shared_ptr<const Scene> commit(const SceneBuilder& self, const py::object& poll) {
+  CancelToken cancel;
+  std::shared_ptr<const Scene> scene;
+  std::exception_ptr error;
+  std::mutex mutex;
+  std::condition_variable ended;
+  bool done = false;
+  const SceneBuilder copy = self;  // other threads may change the builder meanwhile
+
+  std::thread thread([&] {
+    try {
+      scene = copy.commit(cancel);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    done = true;
+    ended.notify_all();
+  });
+  std::exception_ptr poll_error;
+  {
+    const py::gil_scoped_release release;
+    std::unique_lock lock(mutex);
+    while (!ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return done; })) {
+      lock.unlock();
+      try {
+        const py::gil_scoped_acquire acquire;
+        check_signals();
+        if (!poll.is_none() && py::bool_(poll())) {
+          cancel.cancel();
+        }
+      } catch (...) {
+        poll_error = std::current_exception();
+        cancel.cancel();
+      }
+      lock.lock();
+    }
+    lock.unlock();
+    thread.join();
+  }
+  if (poll_error) {
+    std::rethrow_exception(poll_error);
+  }
+  if (cancel.cancelled()) {  // asked for too late to be heard
+    throw Cancelled();
+  }
+  if (error) {
+    std::rethrow_exception(error);
+  }
+  return scene;
+}
+
+py::dict counts(const Scene& scene) {
+  size_t triangles = 0;
+  for (const Instance& instance : scene.instances) {
+    triangles += scene.meshes[instance.mesh].triangles().size();
+  }
+  py::dict result;
+  result["meshes"] = scene.meshes.size();
+  result["instances"] = scene.instances.size();
+  result["triangles"] = triangles;
+  result["materials"] = scene.programs.size() - 1;  // without the default surface
+  result["lights"] = scene.lights.size();
+  return result;
+}
+
+void bind_diagnostic(py::module_& m) {
+  py::class_<Diagnostic>(m, "Diagnostic",
+                         "A recoverable finding; empty strings mean 'does not apply'.")
+      .def_property_readonly(
+          "severity", [](const Diagnostic& d) { return to_name(kSeverities, d.severity); },
+          "INFO, WARNING or ERROR.")
+      .def_readonly("object", &Diagnostic::object, "Name of the object.")
+      .def_readonly("material", &Diagnostic::material, "Name of the material, light or world.")
+      .def_readonly("node", &Diagnostic::node, "Name of the shader node.")
+      .def_readonly("message", &Diagnostic::message, "What is not as asked.")
+      .def("__repr__", [](const Diagnostic& d) {
+        return py::str("Diagnostic({!r}, object={!r}, material={!r}, node={!r}, message={!r})")
+            .format(to_name(kSeverities, d.severity), d.object, d.material, d.node, d.message);
+      });
+}
+
+}  // namespace
+
+void bind_scene(py::module_& m) {
+  bind_diagnostic(m);
+
+  py::class_<Scene, std::shared_ptr<Scene>>(
+      m, "Scene", "A committed scene: immutable, may be shared by sessions and threads.")
+      .def_property_readonly(
+          "diagnostics", [](const Scene& s) { return s.diagnostics; },
+          "What could not be rendered as asked: list of Diagnostic.")
+      .def_property_readonly("counts", &counts,
+                             "Numbers of meshes, instances, triangles (with instances), materials "
+                             "and lights (sources with their own sampling).");
+
+  py::class_<SceneBuilder>(m, "SceneBuilder",
+                           "Collects a scene description. Keys are the caller's; setting a key "
+                           "again replaces the item. Lengths in metres, matrices as in Blender.")
+      .def(py::init<>())
+      .def("set_mesh", &set_mesh, "key"_a, py::kw_only(), "name"_a, "positions"_a, "triangles"_a,
+           "corner_vertices"_a = py::none(), "corner_normals"_a = py::none(),
+           "material_indices"_a = py::none(),
+           "positions float[N,3]; triangles int[M,3], indices of corners; corner_vertices int[C], "
+           "vertex of each corner (None: corners are vertices); corner_normals float[C,3] (None: "
+           "flat); material_indices int[M], slot per triangle (None: slot 0). Arrays are copied.")
+      .def(
+          "set_material",
+          [](SceneBuilder& self, Key key, std::string name, const py::dict& graph) {
+            self.set_material(key, {std::move(name), to_graph(key, graph)});
+          },
+          "key"_a, py::kw_only(), "name"_a, "graph"_a,
+          "A surface, as a flattened node tree: {'nodes': [{'name', 'type', 'inputs', "
+          "'properties'}], 'surface': {'link': [node, output]} or None}.")
+      .def(
+          "set_instance",
+          [](SceneBuilder& self, Key key, std::string name, std::string mesh,
+             const py::object& transform, std::vector<std::optional<std::string>> materials) {
+            self.set_instance(key, {std::move(name), std::move(mesh), to_matrix(key, transform),
+                                    std::move(materials)});
+          },
+          "key"_a, py::kw_only(), "name"_a, "mesh"_a, "transform"_a,
+          "materials"_a = std::vector<std::optional<std::string>>(),
+          "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot.")
+      .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,
+           "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f, "soft_falloff"_a = true,
+           "shape"_a = "SQUARE", "size"_a = 0.25f, "size_y"_a = 0.25f, "spread"_a = kPi,
+           "spot_size"_a = 0.785398f, "spot_blend"_a = 0.15f, "spot_square"_a = false,
+           "angle"_a = 0.0f, "normalize"_a = true, "exposure"_a = 0.0f, "visible_camera"_a = true,
+           "graph"_a = py::none(),
+           "A light object, in Blender's words and units: type POINT, SPOT, SUN or AREA; energy in "
+           "watts (sun: W/m^2); angles in radians; shape SQUARE, RECTANGLE, DISK or ELLIPSE.")
+      .def(
+          "set_world",
+          [](SceneBuilder& self, std::string name, const std::optional<py::dict>& graph) {
+            WorldDesc desc;
+            if (graph) {
+              desc.graph = to_graph(name, *graph);
+            }
+            desc.name = std::move(name);
+            self.set_world(std::move(desc));
+          },
+          py::kw_only(), "name"_a, "graph"_a, "The background; graph None: black.")
+      .def("set_camera", &set_camera, py::kw_only(), "name"_a, "type"_a = "PERSP", "transform"_a,
+           "window"_a, "clip_start"_a = 0.1f, "clip_end"_a = 1000.0f,
+           "A perspective camera that looks along its -z. window: left, right, bottom, top of the "
+           "full frame on the plane at distance 1.")
+      .def("remove", &SceneBuilder::remove, "key"_a, "Forgets a key; unknown keys are ignored.")
+      .def("commit", &commit, "poll"_a = py::none(),
+           "Builds the immutable Scene without holding the GIL. poll() is called about every 50 ms "
+           "in this thread; True cancels. Raises SceneError, Cancelled, or what poll raised.");
+}
+
+}  // namespace janus::python

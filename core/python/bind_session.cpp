@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bind.h"
+#include "janus/render/scene.h"
+#include "janus/session/session.h"
+#include "janus/util/error.h"
+
+namespace janus::python {
+
+namespace {
+
+using namespace py::literals;
+
+constexpr EnumName<IntegratorType> kIntegrators[] = {{"bdpt", IntegratorType::Bdpt},
+                                                     {"pt", IntegratorType::PathTracer},
+                                                     {"lt", IntegratorType::LightTracer}};
+constexpr EnumName<FilterType> kFilters[] = {{"BLACKMAN_HARRIS", FilterType::BlackmanHarris},
+                                             {"GAUSSIAN", FilterType::Gaussian},
+                                             {"BOX", FilterType::Box}};
+constexpr EnumName<Heuristic> kHeuristics[] = {{"BALANCE", Heuristic::Balance},
+                                               {"POWER", Heuristic::Power}};
+constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Waiting},
+                                                 {"rendering", Progress::State::Rendering},
+                                                 {"done", Progress::State::Done},
+                                                 {"cancelled", Progress::State::Cancelled},
+                                                 {"failed", Progress::State::Failed}};
+
+// --- Settings -------------------------------------------------------------------------------------
+
+using Crop = std::optional<std::array<int, 4>>;
+
+RenderSettings make_settings(int width, int height, const Crop& crop, int samples, double seconds,
+                             uint32_t seed, int threads, int max_bounces,
+                             const std::string& integrator, const std::string& filter,
+                             float filter_width, float light_paths, float connections,
+                             const std::string& heuristic, bool film_transparent,
+                             bool check_weights) {
+  RenderSettings s;
+  s.width = width;
+  s.height = height;
+  if (crop) {
+    s.crop = FilmRect{(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]};
+  }
+  s.samples = samples;
+  s.seconds = seconds;
+  s.seed = seed;
+  s.threads = threads;
+  s.max_bounces = max_bounces;
+  s.integrator = from_name(kIntegrators, integrator, "integrator");
+  s.filter = from_name(kFilters, filter, "filter");
+  s.filter_width = filter_width;
+  s.light_paths = light_paths;
+  s.connections = connections;
+  s.heuristic = from_name(kHeuristics, heuristic, "heuristic");
+  s.film_transparent = film_transparent;
+  s.check_weights = check_weights;
+  s.validate();
+  return s;
+}
+
+py::dict to_dict(const RenderSettings& s) {
+  py::dict d;
+  d["width"] = s.width;
+  d["height"] = s.height;
+  d["crop"] = s.crop ? py::object(py::make_tuple(s.crop->x0, s.crop->y0, s.crop->x1, s.crop->y1))
+                     : py::object(py::none());
+  d["samples"] = s.samples;
+  d["seconds"] = s.seconds;
+  d["seed"] = s.seed;
+  d["threads"] = s.threads;
+  d["max_bounces"] = s.max_bounces;
+  d["integrator"] = to_name(kIntegrators, s.integrator);
+  d["filter"] = to_name(kFilters, s.filter);
+  d["filter_width"] = s.filter_width;
+  d["light_paths"] = s.light_paths;
+  d["connections"] = s.connections;
+  d["heuristic"] = to_name(kHeuristics, s.heuristic);
+  d["film_transparent"] = s.film_transparent;
+  d["check_weights"] = s.check_weights;
+  return d;
+}
+
+void bind_settings(py::module_& m) {
+  const RenderSettings d;
+  py::class_<RenderSettings> settings(
+      m, "RenderSettings",
+      "What to render of a scene: immutable, checked when made (SceneError names the setting). "
+      "crop: (x0, y0, x1, y1) in pixels of the full frame from the bottom left; seconds: time "
+      "limit, 0 for none; threads: 0 for all; max_bounces: as in Cycles, 0 is direct light; "
+      "integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
+      "pixels; light_paths per pixel; connections per camera vertex; heuristic: BALANCE or POWER; "
+      "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
+  settings.def(py::init(&make_settings), py::kw_only(), "width"_a = d.width,
+               "height"_a = d.height, "crop"_a = py::none(), "samples"_a = d.samples,
+               "seconds"_a = d.seconds, "seed"_a = d.seed, "threads"_a = d.threads,
+               "max_bounces"_a = d.max_bounces, "integrator"_a = to_name(kIntegrators, d.integrator),
+               "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
+               "light_paths"_a = d.light_paths, "connections"_a = d.connections,
+               "heuristic"_a = to_name(kHeuristics, d.heuristic),
+               "film_transparent"_a = d.film_transparent, "check_weights"_a = d.check_weights);
+  settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
+  settings.def("__repr__", [](const RenderSettings& s) {
+    return py::str("RenderSettings(**{!r})").format(to_dict(s));
+  });
+  settings.def("__eq__", [](const RenderSettings& a, const py::object& b) {
+    return py::isinstance<RenderSettings>(b) && to_dict(a).equal(to_dict(b.cast<RenderSettings>()));
+  });
+  settings.attr("__hash__") = py::none();
+  for (const auto& item : to_dict(d)) {
+    const std::string name = py::str(item.first);
+    settings.def_property_readonly(name.c_str(), [name](const RenderSettings& s) {
+      return py::object(to_dict(s)[name.c_str()]);
+    });
+  }
+}
+
+// --- Session --------------------------------------------------------------------------------------
+
+// Waits without the GIL, in slices short enough for Ctrl-C.
+bool wait(RenderSession& self, double seconds) {
+  constexpr double kSlice = 0.1;
+  for (;;) {
+    bool ended;
+    {
+      const py::gil_scoped_release release;
+      ended = self.wait(std::clamp(seconds, 0.0, kSlice));
+    }
+    check_signals();
+    seconds -= kSlice;
+    if (ended || !(seconds > 0.0)) {
+      return ended;
+    }
+  }
+}
+
+void finish(RenderSession& self) {
+  if (self.progress().state == Progress::State::Waiting) {
+    return;
+  }
+  while (!wait(self, 1.0)) {
+  }
+  self.finish();
+}
+
+py::dict progress(const RenderSession& self) {
+  const Progress p = self.progress();
+  py::dict d;
+  d["samples"] = p.samples;
+  d["target_samples"] = p.target_samples;
+  d["seconds"] = p.seconds;
+  d["remaining"] = p.remaining;
+  d["state"] = to_name(kStates, p.state);
+  return d;
+}
+
+py::dict stats(const RenderSession& self) {
+  const Statistics s = self.statistics();
+  const Counters& c = s.counters;
+  py::dict d;
+  d["samples"] = s.samples;
+  d["seconds"] = s.seconds;
+  d["paths"] = py::dict("camera"_a = c.camera_paths, "light"_a = c.light_paths);
+  d["rays"] = py::dict("camera"_a = c.camera_rays, "light"_a = c.light_rays, "nee"_a = c.nee_rays,
+                       "connection"_a = c.connection_rays, "splat"_a = c.splat_rays);
+  d["light_vertices"] = c.light_vertices;
+  d["dropped"] = c.dropped;
+  d["weight_error"] = s.weight_error;
+  return d;
+}
+
+py::array_t<float> snapshot(const RenderSession& self, const std::string& name) {
+  if (name != "Combined") {
+    throw py::value_error("there is no pass '" + name + "', only 'Combined'");
+  }
+  std::unique_ptr<Image> image;
+  {
+    const py::gil_scoped_release release;
+    image = std::make_unique<Image>(self.snapshot());
+  }
+  const py::ssize_t shape[] = {image->height, image->width, image->channels};
+  const float* pixels = image->pixels.data();
+  const py::capsule owner(image.release(), [](void* p) { delete static_cast<Image*>(p); });
+  return py::array_t<float>(shape, pixels, owner);
+}
+
+}  // namespace
+
+void bind_session(py::module_& m) {
+  bind_settings(m);
+  // release_gil_before_calling_cpp_dtor: the destructor waits for the render threads.
+  py::class_<RenderSession>(m, "RenderSession", py::release_gil_before_calling_cpp_dtor(),
+                            "One render, on threads of its own that never run Python. Dropping it "
+                            "cancels it. Methods may be called from any thread.")
+      .def(py::init([](std::shared_ptr<Scene> scene, const RenderSettings& settings) {
+             return std::make_unique<RenderSession>(std::move(scene), settings);
+           }),
+           "scene"_a.none(false), "settings"_a)
+      .def("start", &RenderSession::start, "Starts the render and returns. Once only.")
+      .def("wait", &wait, "seconds"_a,
+           "Waits up to `seconds` for the end, without the GIL; True if the render has ended.")
+      .def("progress", &progress,
+           "samples, target_samples, seconds (since start), remaining (seconds, None before the "
+           "first pass) and state: waiting, rendering, done, cancelled or failed.")
+      .def("cancel", &RenderSession::cancel,
+           "Asks the render to stop and returns. Whole passes are kept.")
+      .def("snapshot", &snapshot, "name"_a = "Combined",
+           "The mean of the whole passes so far: float32 [height, width, 4] of the crop, scene "
+           "linear, premultiplied alpha, bottom row first. A new array each time.")
+      .def("finish", &finish,
+           "Waits for the end and raises what went wrong on the render threads, if anything.")
+      .def("stats", &stats,
+           "samples per pixel, seconds of rendering, paths (camera, light), rays by kind, "
+           "light_vertices (kept in the cache), dropped (values that were not finite), "
+           "weight_error.");
+}
+
+}  // namespace janus::python

@@ -1,0 +1,304 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The native core of Janus. Import janus_core, not this.
+
+Arguments of the wrong kind raise TypeError, data that cannot be rendered SceneError. Lengths are in
+metres, angles in radians, colours scene-linear Rec.709; matrices are 4x4 as Blender and NumPy write
+them: they multiply column vectors, so the translation is in the last column.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, TypedDict, final
+
+import numpy as np
+import numpy.typing as npt
+
+__version__: str
+
+class Error(Exception):
+    """Base of what the core raises on purpose."""
+
+class SceneError(Error):
+    """A description or a setting that cannot be rendered."""
+
+    key: str
+    """The item given to SceneBuilder, or "settings"."""
+    path: str
+    """The offending part of it, such as "triangles[12]"; may be empty."""
+    message: str
+    """What is wrong, without key and path (which str() has)."""
+
+class IoError(Error):
+    """A file that cannot be read or written; the message names it."""
+
+class Cancelled(Error):
+    """The work was cancelled."""
+
+class _Counts(TypedDict):
+    meshes: int
+    instances: int
+    triangles: int
+    lights: int
+    materials: int
+
+class _Progress(TypedDict):
+    samples: int
+    target_samples: int
+    seconds: float
+    remaining: float | None
+    state: Literal["waiting", "rendering", "done", "cancelled", "failed"]
+
+class _Stats(TypedDict):
+    samples: int
+    seconds: float
+    paths: dict[Literal["camera", "light"], int]
+    rays: dict[Literal["camera", "light", "nee", "connection", "splat"], int]
+    light_vertices: int
+    dropped: int
+    weight_error: float
+
+@final
+class Diagnostic:
+    """A recoverable finding; empty strings mean "does not apply"."""
+
+    @property
+    def severity(self) -> Literal["INFO", "WARNING", "ERROR"]:
+        """How grave it is."""
+    @property
+    def object(self) -> str:
+        """Name of the object."""
+    @property
+    def material(self) -> str:
+        """Name of the material, light or world."""
+    @property
+    def node(self) -> str:
+        """Name of the shader node."""
+    @property
+    def message(self) -> str:
+        """What is not as asked."""
+
+@final
+class Scene:
+    """A committed scene: immutable, may be shared by sessions and threads."""
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """What could not be rendered as asked."""
+    @property
+    def counts(self) -> _Counts:
+        """Numbers of meshes, instances, triangles (with instances), materials, and lights (sources
+        with a sampling of their own: lamps, emitting objects, the world)."""
+
+@final
+class SceneBuilder:
+    """Collects a scene description. Keys are the caller's; setting a key again replaces the item.
+
+    All data is copied.
+    """
+
+    def __init__(self) -> None: ...
+    def set_mesh(
+        self,
+        key: str,
+        *,
+        name: str,
+        positions: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        corner_vertices: npt.ArrayLike | None = None,
+        corner_normals: npt.ArrayLike | None = None,
+        material_indices: npt.ArrayLike | None = None,
+    ) -> None:
+        """A mesh in object space.
+
+        positions: float[N, 3]. triangles: int[M, 3], indices of corners. corner_vertices: int[C],
+        the position of each corner (None: the corners are the positions). corner_normals:
+        float[C, 3], need not be unit (None: flat shading). material_indices: int[M], the material
+        slot of each triangle (None: slot 0).
+        """
+    def set_material(self, key: str, *, name: str, graph: Mapping[str, Any]) -> None:
+        """A surface, as a flattened node tree:
+
+        {"nodes": [{"name", "type", "inputs": {identifier: value}, "properties": {identifier:
+        value}}], "surface": {"link": [node, output]} or None}. The value of an input is None, a
+        number, 3 or 4 numbers, a string, or a link. Types and identifiers are Blender's; see
+        node_types().
+        """
+    def set_instance(
+        self,
+        key: str,
+        *,
+        name: str,
+        mesh: str,
+        transform: npt.ArrayLike,
+        materials: Sequence[str | None] = ...,
+    ) -> None:
+        """Places the mesh with the key `mesh` in the world.
+
+        transform: float[4, 4], object to world. materials: a key for each slot, or None for the
+        default surface.
+        """
+    def set_light(
+        self,
+        key: str,
+        *,
+        name: str,
+        type: Literal["POINT", "SPOT", "SUN", "AREA"],
+        transform: npt.ArrayLike,
+        color: Sequence[float] = (1.0, 1.0, 1.0),
+        energy: float = 10.0,
+        radius: float = 0.0,
+        soft_falloff: bool = True,
+        shape: Literal["SQUARE", "RECTANGLE", "DISK", "ELLIPSE"] = "SQUARE",
+        size: float = 0.25,
+        size_y: float = 0.25,
+        spread: float = ...,
+        spot_size: float = ...,
+        spot_blend: float = 0.15,
+        spot_square: bool = False,
+        angle: float = 0.0,
+        normalize: bool = True,
+        exposure: float = 0.0,
+        visible_camera: bool = True,
+        graph: Mapping[str, Any] | None = None,
+    ) -> None:
+        """A light object, which shines along its -z.
+
+        transform: float[4, 4]. energy: watts (SUN: W/m^2), times 2**exposure; with normalize False
+        it does not spread over the light's surface. radius: POINT, SPOT. size, size_y: AREA, edges
+        or diameters before the transform. spread: AREA, full angle. angle: SUN, full angle.
+        spot_size: full angle. graph: the light's own node tree, as for set_material.
+        """
+    def set_world(self, *, name: str, graph: Mapping[str, Any] | None) -> None:
+        """The background, as for set_material; graph None: black."""
+    def set_camera(
+        self,
+        *,
+        name: str,
+        type: Literal["PERSP"] = "PERSP",
+        transform: npt.ArrayLike,
+        window: Sequence[float],
+        clip_start: float = 0.1,
+        clip_end: float = 1000.0,
+    ) -> None:
+        """A perspective camera that looks along its -z, with +y up.
+
+        transform: float[4, 4], camera to world. window: left, right, bottom, top of the full frame
+        on the plane at distance 1. clip_start, clip_end: distances along the view axis.
+        """
+    def remove(self, key: str) -> None:
+        """Forgets the mesh, material, instance and light of this key; unknown keys are ignored."""
+    def commit(self, poll: Callable[[], object] | None = None) -> Scene:
+        """Builds the immutable scene without holding the GIL.
+
+        poll() is called about every 50 ms in this thread; True cancels. Raises SceneError,
+        Cancelled, or what poll raised. The builder stays as it is and can be committed again.
+        """
+
+@final
+class RenderSettings:
+    """What to render of a scene: immutable, checked when made (SceneError names the setting)."""
+
+    def __init__(
+        self,
+        *,
+        width: int = 640,
+        height: int = 360,
+        crop: Sequence[int] | None = None,
+        samples: int = 64,
+        seconds: float = 0.0,
+        seed: int = 0,
+        threads: int = 0,
+        max_bounces: int = 12,
+        integrator: Literal["bdpt", "pt", "lt"] = "bdpt",
+        filter: Literal["BLACKMAN_HARRIS", "GAUSSIAN", "BOX"] = "BLACKMAN_HARRIS",
+        filter_width: float = 1.5,
+        light_paths: float = 1.0,
+        connections: float = 1.0,
+        heuristic: Literal["BALANCE", "POWER"] = "BALANCE",
+        film_transparent: bool = False,
+        check_weights: bool = False,
+    ) -> None: ...
+    def to_dict(self) -> dict[str, Any]:
+        """The keyword arguments that make these settings."""
+    def __eq__(self, other: object, /) -> bool: ...
+    @property
+    def width(self) -> int:
+        """Of the full frame, pixels."""
+    @property
+    def height(self) -> int:
+        """Of the full frame, pixels."""
+    @property
+    def crop(self) -> tuple[int, int, int, int] | None:
+        """x0, y0, x1, y1 of the part to render, pixels from the bottom left; None: all."""
+    @property
+    def samples(self) -> int:
+        """Per pixel; one pass of the whole picture each."""
+    @property
+    def seconds(self) -> float:
+        """Time limit of the render; 0: none. The first pass always completes."""
+    @property
+    def seed(self) -> int:
+        """The same scene, settings and seed give the same picture, bit for bit."""
+    @property
+    def threads(self) -> int:
+        """0: one per hardware thread. Does not change the picture."""
+    @property
+    def max_bounces(self) -> int:
+        """As in Cycles: 0 is direct light only."""
+    @property
+    def integrator(self) -> Literal["bdpt", "pt", "lt"]:
+        """Bidirectional path tracing, path tracing, light tracing."""
+    @property
+    def filter(self) -> Literal["BLACKMAN_HARRIS", "GAUSSIAN", "BOX"]:
+        """Shape of the pixel filter."""
+    @property
+    def filter_width(self) -> float:
+        """Pixels."""
+    @property
+    def light_paths(self) -> float:
+        """Light paths per pixel and pass."""
+    @property
+    def connections(self) -> float:
+        """Connections per vertex of a camera path."""
+    @property
+    def heuristic(self) -> Literal["BALANCE", "POWER"]:
+        """How the techniques are weighted."""
+    @property
+    def film_transparent(self) -> bool:
+        """Whether the world is left out of the picture, with alpha 0 there."""
+    @property
+    def check_weights(self) -> bool:
+        """Debug: compares the MIS weights of sampled paths with their definition; slow."""
+
+@final
+class RenderSession:
+    """One render, on threads of its own that never run Python. Dropping it cancels it.
+
+    Methods may be called from any thread.
+    """
+
+    def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
+    def start(self) -> None:
+        """Starts the render and returns. Once only."""
+    def wait(self, seconds: float) -> bool:
+        """Waits up to `seconds` for the end, without the GIL; True if the render has ended."""
+    def progress(self) -> _Progress:
+        """samples, target_samples, seconds (since start), remaining (seconds, None before the
+        first pass) and state."""
+    def cancel(self) -> None:
+        """Asks the render to stop and returns. Whole passes are kept."""
+    def snapshot(self, name: Literal["Combined"] = "Combined") -> npt.NDArray[np.float32]:
+        """The mean of the whole passes so far: float32[height, width, 4] of the crop, scene linear,
+        premultiplied alpha, bottom row first. A new array each time."""
+    def finish(self) -> None:
+        """Waits for the end and raises what went wrong on the render threads, if anything."""
+    def stats(self) -> _Stats:
+        """Whole passes (samples), seconds of rendering, paths and rays by kind, light_vertices
+        (kept in the cache), dropped (values that were not finite), weight_error (with
+        check_weights: the largest difference from the definition)."""
+
+def build_info() -> dict[str, Any]:
+    """Versions of the core, of Embree and of the tools that it was built with."""
+
+def node_types() -> list[dict[str, Any]]:
+    """The shader nodes that the core knows: type (Blender's node.type), inputs (dicts with
+    identifier, type, default) and output."""

@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scene descriptions as files: what was given to a SceneBuilder, to be rendered again anywhere.
+
+A capture is a .npz: a zip archive with `scene.json` (names, numbers, node graphs, settings) and the
+arrays as .npy members, which numpy.load() opens as well. Nothing in it is ever unpickled.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import os
+import secrets
+import zipfile
+import zlib
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from . import Error, IoError, RenderSettings, Scene, SceneBuilder, __version__
+
+__all__ = ["CapturingBuilder", "load"]
+
+FORMAT = "janus scene"
+VERSION = 1  # raised when an older reader could not understand a newer file
+
+_KINDS = ("mesh", "material", "instance", "light")  # in the order in which load() sets them
+_MESH_ARRAYS = ("positions", "triangles", "corner_vertices", "corner_normals", "material_indices")
+_TRANSFORMS = "instance_transforms"  # one array for all, as there can be very many
+
+
+class CapturingBuilder:
+    """Has the methods of SceneBuilder, passes each call on to `builder`, and can save them all.
+
+    Without `builder` it makes a SceneBuilder of its own. Arrays are copied, so the caller may use
+    their memory again. A call that the builder refuses is not recorded.
+    """
+
+    def __init__(self, builder: SceneBuilder | None = None) -> None:
+        self._builder = SceneBuilder() if builder is None else builder
+        self._items: dict[str, dict[str, dict[str, Any]]] = {kind: {} for kind in _KINDS}
+        self._world: dict[str, Any] | None = None
+        self._camera: dict[str, Any] | None = None
+
+    def set_mesh(self, key: str, **arguments: Any) -> None:
+        """As SceneBuilder.set_mesh."""
+        self._set("mesh", key, arguments)
+
+    def set_material(self, key: str, **arguments: Any) -> None:
+        """As SceneBuilder.set_material."""
+        self._set("material", key, arguments)
+
+    def set_instance(self, key: str, **arguments: Any) -> None:
+        """As SceneBuilder.set_instance."""
+        self._set("instance", key, arguments)
+
+    def set_light(self, key: str, **arguments: Any) -> None:
+        """As SceneBuilder.set_light."""
+        self._set("light", key, arguments)
+
+    def set_world(self, **arguments: Any) -> None:
+        """As SceneBuilder.set_world."""
+        self._builder.set_world(**arguments)
+        self._world = _own(arguments)
+
+    def set_camera(self, **arguments: Any) -> None:
+        """As SceneBuilder.set_camera."""
+        self._builder.set_camera(**arguments)
+        self._camera = _own(arguments)
+
+    def remove(self, key: str) -> None:
+        """As SceneBuilder.remove."""
+        self._builder.remove(key)
+        for items in self._items.values():
+            items.pop(key, None)
+
+    def commit(self, poll: Callable[[], object] | None = None) -> Scene:
+        """As SceneBuilder.commit."""
+        return self._builder.commit(poll=poll)
+
+    def save(self, path: str | os.PathLike[str], settings: RenderSettings) -> None:
+        """Writes the scene as it is now, and how to render it, to a .npz file.
+
+        The file appears when it is complete. Raises IoError, which names it.
+        """
+        description, arrays = self._describe()
+        description["settings"] = settings.to_dict()
+        try:
+            text = json.dumps(description, default=_plain, indent=1)
+            with _replacing(path) as file, zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as zip_:
+                zip_.writestr("scene.json", text)
+                for name, array in arrays.items():
+                    with zip_.open(f"{name}.npy", "w", force_zip64=True) as member:
+                        np.lib.format.write_array(member, array, allow_pickle=False)
+        except (OSError, ValueError, TypeError) as error:
+            raise IoError(f"cannot write {os.fspath(path)}: {_reason(error)}") from error
+
+    def _set(self, kind: str, key: str, arguments: dict[str, Any]) -> None:
+        getattr(self._builder, f"set_{kind}")(key, **arguments)
+        self._items[kind][key] = _own(arguments)
+
+    def _describe(self) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+        """(what goes into scene.json, the arrays beside it)."""
+        description: dict[str, Any] = {
+            "format": FORMAT,
+            "version": VERSION,
+            "janus_core": __version__,
+            "world": self._world,
+            "camera": self._camera,
+        }
+        arrays: dict[str, np.ndarray] = {}
+        description["mesh"] = {}
+        for number, (key, item) in enumerate(self._items["mesh"].items()):
+            members = {name: f"mesh/{number}/{name}" for name in _MESH_ARRAYS if name in item}
+            for name, member in members.items():
+                if item[name] is not None:
+                    arrays[member] = np.asarray(item[name])
+            rest = {name: value for name, value in item.items() if name not in members}
+            members = {name: member for name, member in members.items() if member in arrays}
+            description["mesh"][key] = {**rest, "arrays": members}
+        for kind in ("material", "light"):
+            description[kind] = self._items[kind]
+        instances = self._items["instance"]
+        description["instance"] = {
+            key: {name: value for name, value in item.items() if name != "transform"}
+            for key, item in instances.items()
+        }
+        if instances:
+            arrays[_TRANSFORMS] = np.stack(
+                [np.asarray(item["transform"], dtype=np.float64) for item in instances.values()]
+            )
+        return description, arrays
+
+
+def load(path: str | os.PathLike[str]) -> tuple[SceneBuilder, RenderSettings]:
+    """The scene and the settings of a capture.
+
+    Raises IoError, which names the file, for what is no capture or a damaged one; SceneError for
+    a scene that SceneBuilder refuses.
+    """
+    name = os.fspath(path)
+    try:
+        with zipfile.ZipFile(name) as archive:
+            if "scene.json" not in archive.namelist():
+                raise IoError(f"cannot read {name}: it is not a capture of Janus")
+            description = json.loads(archive.read("scene.json"))
+            if not isinstance(description, dict) or description.get("format") != FORMAT:
+                raise IoError(f"cannot read {name}: it is not a capture of Janus")
+            if description.get("version") != VERSION:
+                raise IoError(
+                    f"cannot read {name}: it has version {description.get('version')} of the "
+                    f"format, this is janus_core {__version__} for version {VERSION}"
+                )
+            return _build(description, archive)
+    except Error:
+        raise
+    except zipfile.BadZipFile as error:
+        raise IoError(f"cannot read {name}: it is not a capture of Janus, or damaged") from error
+    except OSError as error:
+        raise IoError(f"cannot read {name}: {_reason(error)}") from error
+    except (
+        ArithmeticError,  # all that wrong data can do to the lines that read it
+        AttributeError,
+        EOFError,
+        LookupError,
+        MemoryError,
+        RuntimeError,
+        TypeError,
+        ValueError,
+        zipfile.LargeZipFile,
+        zlib.error,
+    ) as error:
+        raise IoError(f"cannot read {name}: it is damaged ({_reason(error)})") from error
+
+
+def _build(
+    description: dict[str, Any], archive: zipfile.ZipFile
+) -> tuple[SceneBuilder, RenderSettings]:
+    builder = SceneBuilder()
+    for key, item in description["mesh"].items():
+        arrays = {name: _array(archive, member) for name, member in item.pop("arrays").items()}
+        builder.set_mesh(key, **{name: None for name in _MESH_ARRAYS[2:]} | item | arrays)
+    for kind in ("material", "light"):
+        for key, item in description[kind].items():
+            getattr(builder, f"set_{kind}")(key, **item)
+    instances = description["instance"]
+    transforms = _array(archive, _TRANSFORMS) if instances else ()
+    for (key, item), transform in zip(instances.items(), transforms, strict=True):
+        builder.set_instance(key, transform=transform, **item)
+    if description["world"] is not None:
+        builder.set_world(**description["world"])
+    if description["camera"] is not None:
+        builder.set_camera(**description["camera"])
+    settings = dict(description["settings"])
+    if settings.get("crop") is not None:
+        settings["crop"] = tuple(settings["crop"])
+    return builder, RenderSettings(**settings)
+
+
+def _array(archive: zipfile.ZipFile, name: str) -> np.ndarray:
+    # The whole member at once: zipfile compares the checksum at its end.
+    content = io.BytesIO(archive.read(f"{name}.npy"))
+    return np.lib.format.read_array(content, allow_pickle=False)
+
+
+def _own(value: Any) -> Any:
+    """A deep copy, with arrays as they are and every other sequence as a list."""
+    if isinstance(value, np.ndarray):
+        return value.copy()
+    if isinstance(value, dict):
+        return {key: _own(item) for key, item in value.items()}
+    if value is None or isinstance(value, str | int | float | np.generic):
+        return value
+    return [_own(item) for item in value]
+
+
+def _plain(value: Any) -> Any:
+    """What json does not know as what it knows: NumPy's numbers and arrays."""
+    return value.tolist()
+
+
+def _reason(error: BaseException) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        return error.strerror
+    return str(error) or type(error).__name__
+
+
+@contextlib.contextmanager
+def _replacing(path: str | os.PathLike[str]):
+    """A binary file that takes the place of `path` if all goes well, and vanishes otherwise."""
+    target = os.path.realpath(path)
+    if os.path.exists(target) and not os.path.isfile(target):
+        raise OSError(f"{target} is not a regular file")
+    folder, name = os.path.split(target)
+    temporary = os.path.join(folder, f".{name[:60]}.{os.getpid()}-{secrets.token_hex(4)}.tmp")
+    try:
+        with open(temporary, "xb") as file:
+            yield file
+        os.replace(temporary, target)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(temporary)
+        raise

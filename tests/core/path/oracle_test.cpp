@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every MIS weight of the recursion against its definition: the densities of all techniques of the
+// whole path. Weights that follow the definition sum to 1 over the techniques of any path.
+#include "janus/path/oracle.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scene_kit.h"
+#include "support/statistics.h"
+
+namespace janus::test {
+namespace {
+
+struct OracleScene {
+  const char* name;
+  SceneKit (*make)();
+  bool light_is_point = false;  // cannot be hit
+  bool nee = true;              // some light is sampled by next event estimation
+};
+
+NodeGraph glossy_coat() {  // delta and diffuse on one surface
+  return combine("MIX_SHADER", diffuse(Rgb(0.7f, 0.5f, 0.3f)), glass(Rgb(0.9f), 1.45f), 0.4f);
+}
+
+const OracleScene kScenes[] = {
+    {"area",
+     [] { return open_box().light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 20)); }},
+    {"area_spread",
+     [] {
+       return open_box().light("lamp", area_light({0, 0, 0.9f}, {0.3f, 0, 0}, 0.5f, 20, 1.2f));
+     }},
+    {"point", [] { return open_box().light("lamp", point_light({0.2f, 0, 0.5f}, 20)); }, true},
+    {"point_soft",
+     [] { return open_box().light("lamp", point_light({0.2f, 0, 0.5f}, 20, 0.2f)); }},
+    {"point_sphere",
+     [] { return open_box().light("lamp", point_light({0.2f, 0, 0.5f}, 20, 0.2f, false)); }},
+    {"mesh",
+     [] {
+       return open_box().add("lamp", ball(0.3f, 8), emission(Rgb(1, 0.8f, 0.6f), 3),
+                             translation({0.1f, 0, 0.4f}) * scaling({1, 0.6f, 0.8f}));
+     }},
+    {"world", [] { return open_box().world(Rgb(0.5f, 0.7f, 1)); }, false, false},
+    {"glass_and_mirror",
+     [] {
+       return open_box()
+           .add("cube", cuboid(vec3(-0.3f), vec3(0.3f)), glass(Rgb(0.95f), 1.5f),
+                translation({-0.4f, 0, -0.4f}) * rotation({1, 1, 0}, 0.5f))
+           .add("ball", ball(0.3f, 12, true), glass(Rgb(1), 1.33f), translation({0.4f, -0.3f, 0}))
+           .add("mirror", plane(1, 1), mirror(Rgb(0.9f)),
+                translation({0, 0.8f, 0}) * rotation({1, 0, 0}, 1.3f))
+           .light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.6f, 20));
+     }},
+    {"mixture",
+     [] {
+       return open_box()
+           .add("cube", cuboid(vec3(-0.35f), vec3(0.35f)), glossy_coat(),
+                translation({-0.4f, 0, -0.4f}) * rotation({1, 1, 0}, 0.5f))
+           .add("coat", plane(2, 2), combine("ADD_SHADER", diffuse(Rgb(0.3f)), mirror(Rgb(0.4f))),
+                translation({0, 0, -0.95f}))
+           .light("lamp", point_light({0.2f, 0, 0.5f}, 20, 0.15f));
+     }},
+    {"smooth_normals",
+     [] {
+       return open_box()
+           .add("ball", ball(0.4f, 8, true), diffuse(Rgb(0.8f)), translation({0.2f, 0, -0.5f}))
+           .add("glass", ball(0.3f, 8, true), glass(Rgb(1), 1.5f), translation({-0.5f, 0, -0.5f}))
+           .light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 20));
+     }},
+    {"many_lights",
+     [] {
+       return open_box()
+           .add("lamp", plane(0.4f, 0.3f), emission(Rgb(2, 1, 1), 3), translation({0, 0, 0.8f}))
+           .add("ball", ball(0.3f, 8), glossy_coat(), translation({-0.4f, 0, -0.4f}))
+           .light("a", area_light({0.5f, 0, 0.9f}, {0, 0, 0}, 0.3f, 5, 2.0f))
+           .light("p", point_light({-0.5f, 0, 0.5f}, 5))
+           .light("s", point_light({0.5f, -0.5f, 0.2f}, 5, 0.1f, false))
+           .world(Rgb(0.3f));
+     }},
+};
+
+std::ostream& operator<<(std::ostream& out, const OracleScene& scene) { return out << scene.name; }
+
+const SampleCounts kAllOne{1, 1, 1, 1};
+
+WeightCheck check(const Scene& scene, Heuristic heuristic, const SampleCounts& counts,
+                  int paths = 400, int max_edges = 8) {
+  constexpr int kSide = 32;
+  const auto camera = make_perspective_camera(scene.camera, kSide, kSide);
+  Random random(7);
+  WeightCheck sum;
+  for (int i = 0; i < samples(paths); ++i) {
+    const vec2 raster = static_cast<float>(kSide) * random.next_2d();
+    const WeightCheck c =
+        check_weights(scene, *camera, raster, heuristic, counts, WalkSettings{max_edges}, 3, i);
+    sum.paths += c.paths;
+    sum.max_error = std::max(sum.max_error, c.max_error);
+    for (int k = 0; k < 4; ++k) {
+      sum.by_class[k] += c.by_class[k];
+    }
+  }
+  return sum;
+}
+
+class Oracle : public ::testing::TestWithParam<OracleScene> {};
+
+TEST_P(Oracle, WeightsFollowTheDefinition) {
+  const OracleScene& param = GetParam();
+  const auto scene = param.make().build();
+  const SampleCounts settings[] = {
+      kAllOne,
+      {1, 1, 0.37f, 1024},   // a render: light paths of a whole frame
+      {0, 1, 1, 1},          // each class left out in turn
+      {1, 0, 1, 1},
+      {1, 1, 0, 300},
+      {1, 1, 1, 0},
+      {1, 1, 0, 0},          // path tracing
+      {0, 0, 0, 64},         // light tracing
+      {0.3f, 2.5f, 7, 0.2f},
+  };
+  for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {
+    for (const SampleCounts& counts : settings) {
+      const WeightCheck result = check(*scene, heuristic, counts);
+      SCOPED_TRACE(::testing::Message()
+                   << "counts " << counts.hit << " " << counts.nee << " " << counts.connection
+                   << " " << counts.splat << ", power " << (heuristic == Heuristic::Power));
+      EXPECT_LT(result.max_error, 1e-4);
+      // What was meant to be tested has been.
+      EXPECT_EQ(result.by_class[0] > 20, counts.hit > 0 && !param.light_is_point);
+      EXPECT_EQ(result.by_class[1] > 100, counts.nee > 0 && param.nee);
+      EXPECT_EQ(result.by_class[2] > 200, counts.connection > 0);
+      EXPECT_EQ(result.by_class[3] > 100, counts.splat > 0);
+    }
+  }
+}
+
+// Long paths, where a factor that is lost at each vertex grows.
+TEST_P(Oracle, LongPaths) {
+  const auto scene = GetParam().make().build();
+  for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {
+    EXPECT_LT(check(*scene, heuristic, {1, 1, 0.5f, 256}, 200, 20).max_error, 1e-4);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Oracle, ::testing::ValuesIn(kScenes),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace janus::test
