@@ -89,4 +89,3 @@ class InstanceSync:
     def _next_key(self, kind: str) -> str:
         self._count += 1
         return f"{kind}:{self._count}"
-

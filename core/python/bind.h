@@ -40,8 +40,7 @@ struct EnumName {
 };
 
 template <class Enum, size_t N>
-Enum from_name(const EnumName<Enum> (&table)[N], const std::string& name,
-               const std::string& what) {
+Enum from_name(const EnumName<Enum> (&table)[N], const std::string& name, const std::string& what) {
   std::string known;
   for (const auto& entry : table) {
     if (name == entry.name) {

@@ -27,11 +27,10 @@ constexpr EnumName<AreaShape> kAreaShapes[] = {{"SQUARE", AreaShape::Square},
 constexpr EnumName<Severity> kSeverities[] = {
     {"INFO", Severity::Info}, {"WARNING", Severity::Warning}, {"ERROR", Severity::Error}};
 
-// --- Arrays ---------------------------------------------------------------------------------------
+// --- Arrays
+// ---------------------------------------------------------------------------------------
 
-std::string shape_of(const py::array& a) {
-  return py::str(a.attr("shape")).cast<std::string>();
-}
+std::string shape_of(const py::array& a) { return py::str(a.attr("shape")).cast<std::string>(); }
 
 // Checks for [N, columns] (columns 0: [N]) and returns N.
 size_t rows(Key key, const char* path, const py::array& a, py::ssize_t columns) {
@@ -109,7 +108,8 @@ mat4 to_matrix(Key key, const py::object& value) {
   return result;
 }
 
-// --- Builder --------------------------------------------------------------------------------------
+// --- Builder
+// --------------------------------------------------------------------------------------
 
 void set_mesh(SceneBuilder& self, Key key, std::string name, const py::object& positions,
               const py::object& triangles, const py::object& corner_vertices,
@@ -135,10 +135,11 @@ void set_mesh(SceneBuilder& self, Key key, std::string name, const py::object& p
 }
 
 void set_light(SceneBuilder& self, Key key, std::string name, const std::string& type,
-               const py::object& transform, const std::array<float, 3>& color, float energy, float radius,
-               bool soft_falloff, const std::string& shape, float size, float size_y, float spread,
-               float spot_size, float spot_blend, bool spot_square, float angle, bool normalize,
-               float exposure, bool visible_camera, const std::optional<py::dict>& graph) {
+               const py::object& transform, const std::array<float, 3>& color, float energy,
+               float radius, bool soft_falloff, const std::string& shape, float size, float size_y,
+               float spread, float spot_size, float spot_blend, bool spot_square, float angle,
+               bool normalize, float exposure, bool visible_camera,
+               const std::optional<py::dict>& graph) {
   LightDesc desc;
   desc.name = std::move(name);
   desc.type = from_name(kLightTypes, type, "light type");
@@ -309,11 +310,11 @@ void bind_scene(py::module_& m) {
           "materials"_a = std::vector<std::optional<std::string>>(),
           "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot.")
       .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,
-           "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f, "soft_falloff"_a = true,
-           "shape"_a = "SQUARE", "size"_a = 0.25f, "size_y"_a = 0.25f, "spread"_a = kPi,
-           "spot_size"_a = 0.785398f, "spot_blend"_a = 0.15f, "spot_square"_a = false,
-           "angle"_a = 0.0f, "normalize"_a = true, "exposure"_a = 0.0f, "visible_camera"_a = true,
-           "graph"_a = py::none(),
+           "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f,
+           "soft_falloff"_a = true, "shape"_a = "SQUARE", "size"_a = 0.25f, "size_y"_a = 0.25f,
+           "spread"_a = kPi, "spot_size"_a = 0.785398f, "spot_blend"_a = 0.15f,
+           "spot_square"_a = false, "angle"_a = 0.0f, "normalize"_a = true, "exposure"_a = 0.0f,
+           "visible_camera"_a = true, "graph"_a = py::none(),
            "A light object, in Blender's words and units: type POINT, SPOT, SUN or AREA; energy in "
            "watts (sun: W/m^2); angles in radians; shape SQUARE, RECTANGLE, DISK or ELLIPSE.")
       .def(

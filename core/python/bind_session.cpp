@@ -24,7 +24,8 @@ constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Wa
                                                  {"cancelled", Progress::State::Cancelled},
                                                  {"failed", Progress::State::Failed}};
 
-// --- Settings -------------------------------------------------------------------------------------
+// --- Settings
+// -------------------------------------------------------------------------------------
 
 using Crop = std::optional<std::array<int, 4>>;
 
@@ -89,10 +90,10 @@ void bind_settings(py::module_& m) {
       "integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
       "pixels; light_paths per pixel; connections per camera vertex; heuristic: BALANCE or POWER; "
       "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
-  settings.def(py::init(&make_settings), py::kw_only(), "width"_a = d.width,
-               "height"_a = d.height, "crop"_a = py::none(), "samples"_a = d.samples,
-               "seconds"_a = d.seconds, "seed"_a = d.seed, "threads"_a = d.threads,
-               "max_bounces"_a = d.max_bounces, "integrator"_a = to_name(kIntegrators, d.integrator),
+  settings.def(py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
+               "crop"_a = py::none(), "samples"_a = d.samples, "seconds"_a = d.seconds,
+               "seed"_a = d.seed, "threads"_a = d.threads, "max_bounces"_a = d.max_bounces,
+               "integrator"_a = to_name(kIntegrators, d.integrator),
                "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
                "light_paths"_a = d.light_paths, "connections"_a = d.connections,
                "heuristic"_a = to_name(kHeuristics, d.heuristic),
@@ -113,7 +114,8 @@ void bind_settings(py::module_& m) {
   }
 }
 
-// --- Session --------------------------------------------------------------------------------------
+// --- Session
+// --------------------------------------------------------------------------------------
 
 // Waits without the GIL, in slices short enough for Ctrl-C.
 bool wait(RenderSession& self, double seconds) {

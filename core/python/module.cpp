@@ -50,8 +50,8 @@ py::dict build_info() {
   info["embree"] = Accel::embree_version();
   info["compiler"] = __VERSION__;
   info["python"] = PY_VERSION;
-  info["pybind11"] = PYBIND11_TOSTRING(PYBIND11_VERSION_MAJOR) "." PYBIND11_TOSTRING(
-      PYBIND11_VERSION_MINOR);
+  info["pybind11"] =
+      PYBIND11_TOSTRING(PYBIND11_VERSION_MAJOR) "." PYBIND11_TOSTRING(PYBIND11_VERSION_MINOR);
 #ifdef NDEBUG
   info["asserts"] = false;
 #else

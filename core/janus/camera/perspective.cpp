@@ -22,8 +22,7 @@ class PerspectiveCamera final : public Camera {
     const float length = glm::length(local);
     const vec3 direction = rotation_ * (local / length);
     // Clipping planes are perpendicular to the view axis, as in Blender.
-    return {Ray{center_ + near_ * length * direction, direction, (far_ - near_) * length},
-            center_,
+    return {Ray{center_ + near_ * length * direction, direction, (far_ - near_) * length}, center_,
             pdf_solid(1.0f / length)};
   }
 
@@ -43,8 +42,7 @@ class PerspectiveCamera final : public Camera {
     const float distance = std::sqrt(d2);
     const vec3 wo = to_camera / distance;
     const float cos_axis = depth / distance;
-    return CameraConnection{raster, wo, center_ - (near_ / cos_axis) * wo, d2,
-                            pdf_solid(cos_axis)};
+    return CameraConnection{raster, wo, center_ - (near_ / cos_axis) * wo, d2, pdf_solid(cos_axis)};
   }
 
  private:

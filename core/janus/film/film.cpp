@@ -31,16 +31,17 @@ void Film::add_splats(std::span<const std::vector<Splat>> blocks, ThreadPool& po
     for (const std::vector<Splat>& block : blocks) {
       for (const Splat& splat : block) {
         // Pixels whose centre lies within the filter's support.
-        const int y0 = std::max(band_y0, static_cast<int>(std::ceil(splat.raster.y - radius - 0.5f)));
-        const int y1 = std::min(band_y1 - 1,
-                                static_cast<int>(std::floor(splat.raster.y + radius - 0.5f)));
+        const int y0 =
+            std::max(band_y0, static_cast<int>(std::ceil(splat.raster.y - radius - 0.5f)));
+        const int y1 =
+            std::min(band_y1 - 1, static_cast<int>(std::floor(splat.raster.y + radius - 0.5f)));
         if (y0 > y1) {
           continue;
         }
         const int x0 =
             std::max(rect_.x0, static_cast<int>(std::ceil(splat.raster.x - radius - 0.5f)));
-        const int x1 = std::min(rect_.x1 - 1,
-                                static_cast<int>(std::floor(splat.raster.x + radius - 0.5f)));
+        const int x1 =
+            std::min(rect_.x1 - 1, static_cast<int>(std::floor(splat.raster.x + radius - 0.5f)));
         for (int y = y0; y <= y1; ++y) {
           for (int x = x0; x <= x1; ++x) {
             const float weight = filter_.evaluate(splat.raster - vec2(x + 0.5f, y + 0.5f));

@@ -60,9 +60,9 @@ class Film {
   FilmRect rect_;
   Filter filter_;
   int passes_ = 0;
-  std::vector<vec4> pass_;         // camera samples of the running pass
-  std::vector<Rgb> pass_splats_;   // light image of the running pass
-  std::vector<glm::dvec4> sum_;    // both, over whole passes
+  std::vector<vec4> pass_;        // camera samples of the running pass
+  std::vector<Rgb> pass_splats_;  // light image of the running pass
+  std::vector<glm::dvec4> sum_;   // both, over whole passes
 };
 
 }  // namespace janus

@@ -168,8 +168,7 @@ bool Accel::occluded(vec3 a, vec3 b) const {
   return query.tfar < 0.0f;
 }
 
-SurfaceInteraction Accel::surface_point(uint32_t instance_index, uint32_t primitive,
-                                        vec2 b) const {
+SurfaceInteraction Accel::surface_point(uint32_t instance_index, uint32_t primitive, vec2 b) const {
   const Instance& instance = instances_[instance_index];
   const Mesh& mesh = meshes_[instance.mesh];
   const Mesh::Triangle& triangle = mesh.triangles()[primitive];

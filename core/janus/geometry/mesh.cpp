@@ -21,9 +21,9 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
   }
   for (size_t i = 0; i < desc.corner_vertices.size(); ++i) {
     if (desc.corner_vertices[i] >= desc.positions.size()) {
-      throw SceneError(key, "corner_vertices[" + std::to_string(i) + "]",
-                       "is out of range: the mesh has " + std::to_string(desc.positions.size()) +
-                           " positions");
+      throw SceneError(
+          key, "corner_vertices[" + std::to_string(i) + "]",
+          "is out of range: the mesh has " + std::to_string(desc.positions.size()) + " positions");
     }
   }
 
@@ -52,9 +52,9 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
     }
   }
   if (dropped > 0) {
-    diagnostics.push_back({Severity::Warning, name_, "", "",
-                           std::to_string(dropped) +
-                               " triangles with non-finite vertices are left out"});
+    diagnostics.push_back(
+        {Severity::Warning, name_, "", "",
+         std::to_string(dropped) + " triangles with non-finite vertices are left out"});
   }
   normals_ = desc.corner_normals;
 }

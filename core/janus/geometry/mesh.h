@@ -15,9 +15,9 @@ namespace janus {
 class Mesh {
  public:
   struct Triangle {
-    uint32_t v[3];         // positions
-    uint32_t corner[3];    // corner normals
-    uint32_t material;     // slot
+    uint32_t v[3];       // positions
+    uint32_t corner[3];  // corner normals
+    uint32_t material;   // slot
   };
 
   // Checks the description. Throws SceneError for indices out of range or arrays of wrong length;

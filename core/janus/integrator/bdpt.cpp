@@ -24,8 +24,15 @@ struct VertexCache {
   std::vector<Lobe> lobes;
 
   void add(const PathVertex& v) {
-    LightVertex out{v.hit.p, v.hit.ng, v.hit.offset, v.back, v.beta, v.mis,
-                    static_cast<uint32_t>(lobes.size()), 0, static_cast<uint16_t>(v.edges)};
+    LightVertex out{v.hit.p,
+                    v.hit.ng,
+                    v.hit.offset,
+                    v.back,
+                    v.beta,
+                    v.mis,
+                    static_cast<uint32_t>(lobes.size()),
+                    0,
+                    static_cast<uint16_t>(v.edges)};
     const BsdfView bsdf = v.bsdf();
     for (const Lobe& lobe : bsdf.lobes()) {
       if (!is_delta(lobe)) {  // view-free and connectible: the rest is never asked for
@@ -86,7 +93,9 @@ class Bdpt final : public PassIntegrator {
       if (vertices > 0) {
         counts_.connection = settings_.connections * kPilotPaths / vertices;
         const double pass_bytes = static_cast<double>(bytes) / kPilotPaths * light_paths_;
-        waves_ = 1 + static_cast<size_t>(1.1 * pass_bytes / settings_.cache_bytes);
+        // A wave without light paths would leave its pixels without connections.
+        waves_ = std::min(1 + static_cast<size_t>(1.1 * pass_bytes / settings_.cache_bytes),
+                          std::max<size_t>(1, light_paths_ / kLightBlock));
       }
     }
     mis_ = Mis(settings_.heuristic, counts_);
@@ -144,8 +153,7 @@ class Bdpt final : public PassIntegrator {
     }
   }
 
-  void splat(const PathVertex& v, float margin, std::vector<Splat>& out,
-             Counters& counters) const {
+  void splat(const PathVertex& v, float margin, std::vector<Splat>& out, Counters& counters) const {
     const auto s = connect_to_camera(v, context_.camera, margin, mis_);
     if (!s) {
       return;
@@ -219,8 +227,8 @@ class Bdpt final : public PassIntegrator {
     const auto samples = static_cast<int>(settings_.connections + sampler.next_1d());
     const size_t size = cache_.vertices.size();
     // The actual size belongs to the estimate, the expected one (in counts_) to the weights.
-    const float scale = static_cast<float>(size) /
-                        (settings_.connections * static_cast<float>(wave_paths_));
+    const float scale =
+        static_cast<float>(size) / (settings_.connections * static_cast<float>(wave_paths_));
     for (int n = 0; n < samples; ++n) {
       const size_t pick =
           std::min(static_cast<size_t>(sampler.next_1d() * static_cast<double>(size)), size - 1);

@@ -68,8 +68,7 @@ class LightTracer final : public PassIntegrator {
         const bool seen = trace_camera_subpath(
             context_.scene, context_.camera, raster, mis_, one_edge, sampler, counters,
             [&](const LightFound& found) {
-              if (!(settings_.film_transparent &&
-                    context_.scene.lights[found.light]->infinite())) {
+              if (!(settings_.film_transparent && context_.scene.lights[found.light]->infinite())) {
                 sum += found.beta * found.hit.radiance;
               }
             },

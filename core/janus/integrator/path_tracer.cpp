@@ -50,8 +50,8 @@ class PathTracer final : public PassIntegrator {
 
       const auto add_light = [&](size_t index, const LightHit& found) {
         const Light& light = *scene.lights[index];
-        if (edges == 1 && (!light.visible_camera ||
-                           (light.infinite() && settings_.film_transparent))) {
+        if (edges == 1 &&
+            (!light.visible_camera || (light.infinite() && settings_.film_transparent))) {
           return;
         }
         const float pdf_nee =
@@ -102,8 +102,7 @@ class PathTracer final : public PassIntegrator {
       pdf_solid = sample->pdf_solid;
       delta = sample->delta;
       previous = hit->p;
-      ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, sample->direction),
-                sample->direction};
+      ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, sample->direction), sample->direction};
     }
   }
 
@@ -126,8 +125,7 @@ class PathTracer final : public PassIntegrator {
     if (scene.occluded(offset_origin(hit.p, hit.ng, hit.offset, sample->wi), sample->target)) {
       return Rgb(0.0f);
     }
-    const float pdf_nee =
-        scene.light_sampler.pmf_illumination(hit.p, index) * sample->pdf_solid;
+    const float pdf_nee = scene.light_sampler.pmf_illumination(hit.p, index) * sample->pdf_solid;
     const float pdf_hit =
         light.hittable() ? bsdf.pdf_solid(wo, sample->wi, TransportMode::Radiance) : 0.0f;
     return f * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee);

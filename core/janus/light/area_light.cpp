@@ -13,8 +13,7 @@ namespace {
 class AreaLight final : public Light {
  public:
   AreaLight(const LightDesc& desc, Rgb strength) : center_(desc.transform[3]) {
-    const bool two_sizes =
-        desc.shape == AreaShape::Rectangle || desc.shape == AreaShape::Ellipse;
+    const bool two_sizes = desc.shape == AreaShape::Rectangle || desc.shape == AreaShape::Ellipse;
     ellipse_ = desc.shape == AreaShape::Disk || desc.shape == AreaShape::Ellipse;
     half_u_ = 0.5f * desc.size * vec3(desc.transform[0]);
     half_v_ = 0.5f * (two_sizes ? desc.size_y : desc.size) * vec3(desc.transform[1]);
@@ -63,8 +62,7 @@ class AreaLight final : public Light {
     if (is_black(radiance)) {
       return std::nullopt;
     }
-    return IlluminationSample{wi,       target, d2, radiance, d2 / (area_ * cos_light),
-                              ray_density()};
+    return IlluminationSample{wi, target, d2, radiance, d2 / (area_ * cos_light), ray_density()};
   }
 
   float pdf_illumination(const EmissionSample& /*sample*/, vec3 endpoint,
@@ -89,7 +87,8 @@ class AreaLight final : public Light {
     const vec3 w = cross(half_u_, half_v_);
     const float u = dot(cross(p, half_v_), w) / length2(w);
     const float v = dot(cross(half_u_, p), w) / length2(w);
-    const bool inside = ellipse_ ? u * u + v * v <= 1.0f : std::abs(u) <= 1.0f && std::abs(v) <= 1.0f;
+    const bool inside =
+        ellipse_ ? u * u + v * v <= 1.0f : std::abs(u) <= 1.0f && std::abs(v) <= 1.0f;
     const Rgb radiance = inside ? radiance_ * attenuation(cos_light) : Rgb(0.0f);
     if (is_black(radiance)) {
       return std::nullopt;

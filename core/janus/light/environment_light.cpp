@@ -18,9 +18,7 @@ class ConstantEnvironment final : public Light {
     name = "World";
   }
 
-  float power() const override {
-    return luminance(radiance_) * 4.0f * kPi * kPi * sqr(radius_);
-  }
+  float power() const override { return luminance(radiance_) * 4.0f * kPi * kPi * sqr(radius_); }
 
   bool hittable() const override { return true; }
   bool infinite() const override { return true; }
@@ -30,8 +28,7 @@ class ConstantEnvironment final : public Light {
     const vec3 direction = square_to_sphere(u_direction);
     const vec2 disk = radius_ * square_to_disk(u_position);
     const Frame frame(direction);
-    const vec3 origin =
-        center_ + disk.x * frame.s + disk.y * frame.t - 1.01f * radius_ * direction;
+    const vec3 origin = center_ + disk.x * frame.s + disk.y * frame.t - 1.01f * radius_ * direction;
     return EmissionSample{origin, direction, radiance_ / ray_density().value, ray_density()};
   }
 
@@ -53,9 +50,7 @@ class ConstantEnvironment final : public Light {
   }
 
  private:
-  RayDensity ray_density() const {
-    return {0.25f * kInvPi / (kPi * sqr(radius_)), false};
-  }
+  RayDensity ray_density() const { return {0.25f * kInvPi / (kPi * sqr(radius_)), false}; }
 
   Rgb radiance_;
   vec3 center_;

@@ -6,8 +6,8 @@
 
 namespace janus {
 
-MeshLight::MeshLight(const Accel& accel, const Mesh& mesh, const Instance& instance,
-                     uint32_t index, std::vector<Rgb> radiance)
+MeshLight::MeshLight(const Accel& accel, const Mesh& mesh, const Instance& instance, uint32_t index,
+                     std::vector<Rgb> radiance)
     : accel_(accel), instance_(index), radiance_(std::move(radiance)) {
   name = instance.name;
   const mat3 linear(instance.to_world);
@@ -39,8 +39,8 @@ std::optional<EmissionSample> MeshLight::sample_emission(vec2 u_position, vec2 u
     return std::nullopt;
   }
   const bool front = u_direction.x < 0.5f;
-  u_direction.x = std::min(front ? 2.0f * u_direction.x : 2.0f * u_direction.x - 1.0f,
-                           0x1.fffffep-1f);
+  u_direction.x =
+      std::min(front ? 2.0f * u_direction.x : 2.0f * u_direction.x - 1.0f, 0x1.fffffep-1f);
   const Point point = sample_point(u_position);
   const vec3 n = front ? point.surface.ng : -point.surface.ng;
   const vec3 direction = Frame(n).to_world(square_to_cosine_hemisphere(u_direction));
@@ -59,9 +59,8 @@ std::optional<IlluminationSample> MeshLight::sample_illumination(vec3 receiver, 
     return std::nullopt;
   }
   const Point point = sample_point(u);
-  const vec3 target =
-      offset_origin(point.surface.p, point.surface.ng, point.surface.offset,
-                    receiver - point.surface.p);
+  const vec3 target = offset_origin(point.surface.p, point.surface.ng, point.surface.offset,
+                                    receiver - point.surface.p);
   const vec3 d = target - receiver;
   const float d2 = length2(d);
   if (d2 == 0.0f) {

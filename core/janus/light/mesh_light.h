@@ -18,8 +18,7 @@ class MeshLight final : public Light {
   bool hittable() const override { return true; }
   std::optional<EmissionSample> sample_emission(vec2 u_position, vec2 u_direction) const override;
   std::optional<IlluminationSample> sample_illumination(vec3 receiver, vec2 u) const override;
-  float pdf_illumination(const EmissionSample& sample, vec3 endpoint,
-                         vec3 receiver) const override;
+  float pdf_illumination(const EmissionSample& sample, vec3 endpoint, vec3 receiver) const override;
 
   // Mesh lights are surfaces: the walk finds them, and asks at() then.
   std::optional<LightHit> intersect(const Ray& /*ray*/) const override { return std::nullopt; }

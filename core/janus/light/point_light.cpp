@@ -55,8 +55,7 @@ class PointLight final : public Light {
     if (slope <= 0.0f) {
       return std::nullopt;
     }
-    const vec3 p =
-        sample.origin - sample.direction * (dot(sample.origin - center_, axis) / slope);
+    const vec3 p = sample.origin - sample.direction * (dot(sample.origin - center_, axis) / slope);
     if (length2(p - center_) > sqr(radius_)) {
       return std::nullopt;
     }
@@ -80,7 +79,10 @@ class PointLight final : public Light {
     const vec2 disk = radius_ * square_to_disk(u);
     const vec3 target = center_ + disk.x * frame.s + disk.y * frame.t;
     const vec3 wi = normalize(target - receiver);
-    return IlluminationSample{wi,     target, length2(target - receiver), value_,
+    return IlluminationSample{wi,
+                              target,
+                              length2(target - receiver),
+                              value_,
                               disk_pdf(to_receiver, wi, length2(target - receiver)),
                               ray_density()};
   }
@@ -167,8 +169,7 @@ class PointLight final : public Light {
     const float along = std::sqrt(d2) * -dot(wi, to_receiver);
     const vec3 nearest = (receiver - center_) + along * wi;
     const float t = along - std::sqrt(std::max(0.0f, sqr(radius_) - length2(nearest)));
-    return IlluminationSample{wi,     receiver + t * wi, sqr(t), value_, cone_pdf(d2),
-                              ray_density()};
+    return IlluminationSample{wi, receiver + t * wi, sqr(t), value_, cone_pdf(d2), ray_density()};
   }
 
   vec3 center_;

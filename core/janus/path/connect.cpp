@@ -19,10 +19,8 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   if (is_black(f)) {
     return std::nullopt;
   }
-  const float pdf_nee =
-      scene.light_sampler.pmf_illumination(v.hit.p, index) * sample->pdf_solid;
-  const float pdf_hit =
-      light.hittable() ? bsdf.pdf_solid(wo, wi, TransportMode::Radiance) : 0.0f;
+  const float pdf_nee = scene.light_sampler.pmf_illumination(v.hit.p, index) * sample->pdf_solid;
+  const float pdf_hit = light.hittable() ? bsdf.pdf_solid(wo, wi, TransportMode::Radiance) : 0.0f;
   const float joint =
       scene.light_sampler.pmf_emission(index) *
       emission_density(sample->emission, std::abs(dot(wi, v.hit.ng)), sample->distance2);
@@ -50,10 +48,10 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   if (is_black(f_light)) {
     return std::nullopt;
   }
-  const float pdf_area_light = camera_bsdf.pdf_solid(wo, wi, TransportMode::Radiance) *
-                               std::abs(dot(wi, l.ng)) / d2;
-  const float pdf_area_camera = light_bsdf.pdf_solid(-wi, l.wi, TransportMode::Importance) *
-                                std::abs(dot(wi, c.hit.ng)) / d2;
+  const float pdf_area_light =
+      camera_bsdf.pdf_solid(wo, wi, TransportMode::Radiance) * std::abs(dot(wi, l.ng)) / d2;
+  const float pdf_area_camera =
+      light_bsdf.pdf_solid(-wi, l.wi, TransportMode::Importance) * std::abs(dot(wi, c.hit.ng)) / d2;
   const float weight = mis.weight_connection(
       l.mis, pdf_area_light, light_bsdf.pdf_solid(-wi, l.wi, TransportMode::Radiance), c.mis,
       pdf_area_camera, camera_bsdf.pdf_solid(wo, wi, TransportMode::Importance));
@@ -75,9 +73,8 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
     return std::nullopt;
   }
   const float importance = to_camera->pdf_solid / to_camera->distance2;
-  const float weight =
-      mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)),
-                       bsdf.pdf_solid(wo, wi, TransportMode::Radiance));
+  const float weight = mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)),
+                                        bsdf.pdf_solid(wo, wi, TransportMode::Radiance));
   return CameraSplat{{v.beta * f * importance, weight,
                       offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo), to_camera->target},
                      to_camera->raster};

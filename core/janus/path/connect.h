@@ -33,9 +33,8 @@ struct LightConnection {
   Connection connection;
   LightEnd end;
 };
-std::optional<LightConnection> connect_to_light(const Scene& scene,
-                                                const PathVertex& camera_vertex, const Mis& mis,
-                                                Sampler& sampler);
+std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& camera_vertex,
+                                                const Mis& mis, Sampler& sampler);
 
 std::optional<Connection> connect_vertices(const LightVertex& light_vertex, BsdfView light_bsdf,
                                            const PathVertex& camera_vertex, const Mis& mis);

@@ -8,10 +8,10 @@ namespace janus {
 // What a render did. Workers fill their own and add them up, in any order.
 struct Counters {
   uint64_t camera_paths = 0, light_paths = 0;
-  uint64_t camera_rays = 0, light_rays = 0;                       // walks
-  uint64_t nee_rays = 0, connection_rays = 0, splat_rays = 0;     // shadow rays
-  uint64_t light_vertices = 0;                                    // cached
-  uint64_t dropped = 0;                                           // contributions not finite
+  uint64_t camera_rays = 0, light_rays = 0;                    // walks
+  uint64_t nee_rays = 0, connection_rays = 0, splat_rays = 0;  // shadow rays
+  uint64_t light_vertices = 0;                                 // cached
+  uint64_t dropped = 0;                                        // contributions not finite
 
   Counters& operator+=(const Counters& o) {
     camera_paths += o.camera_paths;

@@ -100,8 +100,8 @@ class Mis {
   // the camera.
   float weight_nee(float pdf_nee, float pdf_hit, float joint, const MisState& camera,
                    float pdf_forward) const {
-    const float others = hit_ * raise(pdf_hit / pdf_nee) +
-                         raise(joint / pdf_nee) * total(camera, pdf_forward);
+    const float others =
+        hit_ * raise(pdf_hit / pdf_nee) + raise(joint / pdf_nee) * total(camera, pdf_forward);
     return weight(others, nee_);
   }
 

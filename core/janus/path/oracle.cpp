@@ -13,7 +13,7 @@ namespace {
 struct Scattering {
   vec3 p, ng;
   const PathVertex* vertex;
-  bool delta = false;           // as sampled; joins make it false
+  bool delta = false;                                     // as sampled; joins make it false
   double discrete_radiance = 0, discrete_importance = 0;  // of the delta event
 };
 
@@ -24,16 +24,14 @@ struct FullPath {
   double pdf_nee = 0;                // pN
   double pdf_camera_solid = 0;       // of the direction from the camera to z_{k-1}
   vec3 camera_center{};
-  vec3 to_light{};                   // unit, from z_1 to z_0
+  vec3 to_light{};  // unit, from z_1 to z_0
   bool hittable = false;
 
   int k() const { return static_cast<int>(interior.size()) + 1; }
   const Scattering& z(int i) const { return interior[i - 1]; }
 
   vec3 wi(int i) const { return i == 1 ? to_light : normalize(z(i - 1).p - z(i).p); }
-  vec3 wo(int i) const {
-    return normalize((i == k() - 1 ? camera_center : z(i + 1).p) - z(i).p);
-  }
+  vec3 wo(int i) const { return normalize((i == k() - 1 ? camera_center : z(i + 1).p) - z(i).p); }
   double pdf(int i, TransportMode mode) const {
     if (z(i).delta) {
       return mode == TransportMode::Radiance ? z(i).discrete_radiance : z(i).discrete_importance;
@@ -196,8 +194,9 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
     }
     for (int i = 1; i <= static_cast<int>(light.size()) && counts.connection > 0.0f; ++i) {
       const PathVertex& l = light[i - 1];
-      const LightVertex cached{l.hit.p, l.hit.ng, l.hit.offset, l.back, l.beta, l.mis, 0, 0,
-                               static_cast<uint16_t>(l.edges)};
+      const LightVertex cached{l.hit.p, l.hit.ng, l.hit.offset,
+                               l.back,  l.beta,   l.mis,
+                               0,       0,        static_cast<uint16_t>(l.edges)};
       if (const auto connection = connect_vertices(cached, l.bsdf(), v, mis)) {
         FullPath path = join(light, i, camera_vertices, j);
         set_light(path, light[0].light_end);

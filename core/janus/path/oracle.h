@@ -12,9 +12,9 @@
 namespace janus {
 
 struct WeightCheck {
-  uint64_t paths = 0;             // joins compared
-  uint64_t by_class[4] = {};      // hit, nee, connection, splat
-  double max_error = 0.0;         // largest |weight - definition|
+  uint64_t paths = 0;         // joins compared
+  uint64_t by_class[4] = {};  // hit, nee, connection, splat
+  double max_error = 0.0;     // largest |weight - definition|
 };
 
 // Traces light path `index` and a camera path through `raster`, joins them in every way, and

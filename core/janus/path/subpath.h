@@ -38,9 +38,9 @@ struct PathVertex {
   vec3 back;  // unit direction to the previous vertex: wi on light, wo on camera subpaths
   Rgb beta;   // light: flux that arrives; camera: throughput
   MisState mis;
-  int edges;               // from the start of the subpath
-  Departure previous;      // how the walk left the vertex before (edges > 1)
-  LightEnd light_end;      // light subpaths: their start
+  int edges;           // from the start of the subpath
+  Departure previous;  // how the walk left the vertex before (edges > 1)
+  LightEnd light_end;  // light subpaths: their start
 
   BsdfView bsdf() const { return shading.bsdf.view(hit.ng); }
 };
@@ -120,8 +120,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     return;
   }
   const auto endpoint = light.endpoint(*emission, hit->p);
-  if (!endpoint ||
-      (*endpoint != emission->origin && scene.occluded(*endpoint, emission->origin))) {
+  if (!endpoint || (*endpoint != emission->origin && scene.occluded(*endpoint, emission->origin))) {
     return;
   }
 
@@ -130,8 +129,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   v.beta = emission->weight / pmf;
   v.edges = 1;
   const float cos_1 = std::abs(dot(ray.direction, hit->ng));
-  const float joint =
-      pmf * emission_density(emission->density, cos_1, length2(hit->p - *endpoint));
+  const float joint = pmf * emission_density(emission->density, cos_1, length2(hit->p - *endpoint));
   if (!(joint > 0.0f)) {
     return;
   }
@@ -149,8 +147,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
       return;
     }
     sampler.start_block(v.edges);
-    const auto step =
-        scatter(v, mis, sampler, TransportMode::Importance, start, eta_scale);
+    const auto step = scatter(v, mis, sampler, TransportMode::Importance, start, eta_scale);
     if (!step) {
       return;
     }
@@ -203,9 +200,8 @@ bool trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster,
         }
         return;
       }
-      const float joint =
-          scene.light_sampler.pmf_emission(index) *
-          emission_density(light_hit.emission, cos_previous, light_hit.distance2);
+      const float joint = scene.light_sampler.pmf_emission(index) *
+                          emission_density(light_hit.emission, cos_previous, light_hit.distance2);
       const float pdf_nee =
           scene.light_sampler.pmf_illumination(previous, index) * light_hit.pdf_illumination;
       on_light(LightFound{index,
@@ -248,8 +244,7 @@ bool trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster,
     sampler.start_block(v.edges);
     on_vertex(v, sampler);
 
-    const auto step =
-        scatter(v, mis, sampler, TransportMode::Radiance, 1.0f, eta_scale);
+    const auto step = scatter(v, mis, sampler, TransportMode::Radiance, 1.0f, eta_scale);
     if (!step) {
       return seen;
     }

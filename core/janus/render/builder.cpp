@@ -170,9 +170,13 @@ class Commit {
         add_light(make_point_light(lamp, strength));
         break;
       case LightType::Area: {
-        const float edge = std::min(glm::length(vec3(lamp.transform[0])) * lamp.size,
-                                    glm::length(vec3(lamp.transform[1])) * lamp.size);
-        if (!(edge > 0.0f) || !(glm::length(vec3(lamp.transform[2])) > 0.0f)) {
+        const bool two_sizes =
+            lamp.shape == AreaShape::Rectangle || lamp.shape == AreaShape::Ellipse;
+        const float edge_x = glm::length(vec3(lamp.transform[0])) * lamp.size;
+        const float edge_y =
+            glm::length(vec3(lamp.transform[1])) * (two_sizes ? lamp.size_y : lamp.size);
+        if (!(edge_x > 0.0f) || !(edge_y > 0.0f) ||
+            !(glm::length(vec3(lamp.transform[2])) > 0.0f)) {
           warn(lamp.name, "an area light without an area does not shine; it is left out");
           return;
         }
@@ -212,8 +216,10 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   if (!camera_) {
     throw SceneError("camera", "", "the scene has no camera");
   }
-  if (!is_finite(camera_->transform) || !(camera_->right != camera_->left) ||
-      !(camera_->top != camera_->bottom)) {
+  const float window = (camera_->right - camera_->left) * (camera_->top - camera_->bottom);
+  const float volume = glm::determinant(mat3(camera_->transform));
+  const auto usable = [](float x) { return std::isfinite(x) && x != 0.0f; };
+  if (!is_finite(camera_->transform) || !usable(volume) || !usable(window)) {
     throw SceneError(camera_->name, "camera", "its transform or its window is degenerate");
   }
   if (!(camera_->clip_end > camera_->clip_start) || !(camera_->clip_start >= 0.0f)) {

@@ -16,9 +16,9 @@ namespace janus {
 struct MeshDesc {
   std::string name;
   std::vector<vec3> positions;
-  std::vector<glm::uvec3> triangles;      // indices of corners
-  std::vector<uint32_t> corner_vertices;  // corner -> position; empty: corners are the positions
-  std::vector<vec3> corner_normals;       // empty: flat shading
+  std::vector<glm::uvec3> triangles;       // indices of corners
+  std::vector<uint32_t> corner_vertices;   // corner -> position; empty: corners are the positions
+  std::vector<vec3> corner_normals;        // empty: flat shading
   std::vector<uint32_t> material_indices;  // per triangle, slot of the instance; empty: slot 0
 };
 
@@ -42,7 +42,7 @@ struct LightDesc {
   LightType type = LightType::Point;
   mat4 transform = mat4(1.0f);  // lights shine along their local -z
   Rgb color = Rgb(1.0f);
-  float energy = 10.0f;  // watts (sun: W/m^2)
+  float energy = 10.0f;   // watts (sun: W/m^2)
   float exposure = 0.0f;  // stops
   bool normalize = true;  // energy is power; false: it does not spread over the surface
   float radius = 0.0f;    // point, spot

@@ -12,21 +12,21 @@ enum class IntegratorType { Bdpt, PathTracer, LightTracer };
 
 // What to render; the scene says of what.
 struct RenderSettings {
-  int width = 640, height = 360;    // full frame, pixels
-  std::optional<FilmRect> crop;     // the part to render
-  int samples = 64;                 // passes
-  double seconds = 0.0;             // time limit; 0: none. The first pass always completes
+  int width = 640, height = 360;  // full frame, pixels
+  std::optional<FilmRect> crop;   // the part to render
+  int samples = 64;               // passes
+  double seconds = 0.0;           // time limit; 0: none. The first pass always completes
   uint32_t seed = 0;
-  int threads = 0;                  // 0: one per hardware thread
-  int max_bounces = 12;             // as in Cycles: 0 is direct light only
+  int threads = 0;       // 0: one per hardware thread
+  int max_bounces = 12;  // as in Cycles: 0 is direct light only
   IntegratorType integrator = IntegratorType::Bdpt;
   FilterType filter = FilterType::BlackmanHarris;
-  float filter_width = 1.5f;        // pixels
-  float light_paths = 1.0f;         // per pixel
-  float connections = 1.0f;         // per camera vertex
+  float filter_width = 1.5f;  // pixels
+  float light_paths = 1.0f;   // per pixel
+  float connections = 1.0f;   // per camera vertex
   Heuristic heuristic = Heuristic::Balance;
   bool film_transparent = false;
-  bool check_weights = false;       // debug: IntegratorSettings::check_weights
+  bool check_weights = false;  // debug: IntegratorSettings::check_weights
   size_t cache_bytes = size_t{256} << 20;
 
   FilmRect rect() const { return crop.value_or(FilmRect{0, 0, width, height}); }

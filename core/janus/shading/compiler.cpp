@@ -18,14 +18,14 @@ class Compiler {
 
   Program compile() {
     if (graph_.surface) {
-      closure(*graph_.surface, 1.0f, 0);
+      closure(*graph_.surface, 1.0f);
     }
     return std::move(program_);
   }
 
  private:
-  // A tree this deep is a cycle; Blender refuses those, a file written by hand may not.
-  static constexpr int kMaxDepth = 256;
+  // Shared branches are walked once for each way to them; this bounds what a hostile tree costs.
+  static constexpr int kMaxVisits = 4096;
 
   void warn(const Node& node, const std::string& message) {
     Diagnostic diagnostic{Severity::Warning, "", material_, node.name, message};
@@ -105,66 +105,81 @@ class Compiler {
     }
   }
 
-  void closure(const NodeLink& link, float share, int depth) {
+  void closure(const NodeLink& link, float share) {
     const Node* node = graph_.find(link.node);
-    if (!node || depth > kMaxDepth || share == 0.0f) {
+    if (!node || share == 0.0f) {
       return;
     }
-    const NodeDecl* decl = find_node_type(node->type);
+    // Blender refuses cycles; a description written by hand may hold one.
+    if (std::find(path_.begin(), path_.end(), node) != path_.end()) {
+      warn(*node, "the shader tree has a cycle here; it is cut");
+      return;
+    }
+    if (++visits_ > kMaxVisits) {
+      warn(*node, "the shader mixes too many closures; the rest is left out");
+      return;
+    }
+    path_.push_back(node);
+    add_node(*node, share);
+    path_.pop_back();
+  }
+
+  void add_node(const Node& node, float share) {
+    const NodeDecl* decl = find_node_type(node.type);
     if (!decl) {
-      warn(*node, "the node type " + node->type + " is not supported yet; it is rendered black");
+      warn(node, "the node type " + node.type + " is not supported yet; it is rendered black");
       return;
     }
     switch (decl->op) {
       case NodeOp::Diffuse:
-        normal(*node);
-        if (number(*node, *decl, "Roughness") > 0.0f) {
-          warn(*node, "the roughness of a Diffuse BSDF is not supported yet; 0 is used");
+        normal(node);
+        if (number(node, *decl, "Roughness") > 0.0f) {
+          warn(node, "the roughness of a Diffuse BSDF is not supported yet; 0 is used");
         }
-        add(*node, LobeType::Diffuse, share * color(*node, *decl, "Color"));
+        add(node, LobeType::Diffuse, share * color(node, *decl, "Color"));
         break;
       case NodeOp::Glossy:
-        normal(*node);
-        smooth_only(*node, *decl);
-        add(*node, LobeType::Mirror, share * color(*node, *decl, "Color"));
+        normal(node);
+        smooth_only(node, *decl);
+        add(node, LobeType::Mirror, share * color(node, *decl, "Color"));
         break;
       case NodeOp::Glass:
-        normal(*node);
-        smooth_only(*node, *decl);
+        normal(node);
+        smooth_only(node, *decl);
         // Cycles clamps the index in the same way: an index of 1 has no defined refraction.
-        add(*node, LobeType::Dielectric, share * color(*node, *decl, "Color"),
-            std::max(number(*node, *decl, "IOR"), 1e-5f));
+        add(node, LobeType::Dielectric, share * color(node, *decl, "Color"),
+            std::max(number(node, *decl, "IOR"), 1e-5f));
         break;
       case NodeOp::Emission:
-        program_.emission += share * glm::max(color(*node, *decl, "Color"), Rgb(0.0f)) *
-                             std::max(number(*node, *decl, "Strength"), 0.0f);
+        program_.emission += share * glm::max(color(node, *decl, "Color"), Rgb(0.0f)) *
+                             std::max(number(node, *decl, "Strength"), 0.0f);
         break;
       case NodeOp::Principled:
-        normal(*node);
-        warn(*node,
+        normal(node);
+        warn(node,
              "Principled BSDF is not supported yet; its base color is rendered as Diffuse BSDF");
-        add(*node, LobeType::Diffuse, share * color(*node, *decl, "Base Color"));
-        program_.emission += share * glm::max(color(*node, *decl, "Emission Color"), Rgb(0.0f)) *
-                             std::max(number(*node, *decl, "Emission Strength"), 0.0f);
+        add(node, LobeType::Diffuse, share * color(node, *decl, "Base Color"));
+        program_.emission += share * glm::max(color(node, *decl, "Emission Color"), Rgb(0.0f)) *
+                             std::max(number(node, *decl, "Emission Strength"), 0.0f);
         break;
       case NodeOp::MixShader: {
-        const float factor = std::clamp(number(*node, *decl, "Fac"), 0.0f, 1.0f);
-        child(*node, "Shader", share * (1.0f - factor), depth);
-        child(*node, "Shader_001", share * factor, depth);
+        const float factor = std::clamp(number(node, *decl, "Fac"), 0.0f, 1.0f);
+        child(node, "Shader", share * (1.0f - factor));
+        child(node, "Shader_001", share * factor);
         break;
       }
       case NodeOp::AddShader:
-        child(*node, "Shader", share, depth);
-        child(*node, "Shader_001", share, depth);
+        child(node, "Shader", share);
+        child(node, "Shader_001", share);
         break;
     }
   }
 
-  void child(const Node& node, std::string_view identifier, float share, int depth) {
+  void child(const Node& node, std::string_view identifier, float share) {
     const NodeInput* value = input(node, identifier);
     const auto* link = value ? std::get_if<NodeLink>(value) : nullptr;
     if (link) {
-      closure(*link, share, depth + 1);
+      closure(*link, share);
     }
   }
 
@@ -178,6 +193,8 @@ class Compiler {
   const std::string& material_;
   Diagnostics& diagnostics_;
   Program program_;
+  std::vector<const Node*> path_;  // from the output to the node at hand
+  int visits_ = 0;
 };
 
 }  // namespace

@@ -31,8 +31,7 @@ const OracleScene kScenes[] = {
        return open_box().light("lamp", area_light({0, 0, 0.9f}, {0.3f, 0, 0}, 0.5f, 20, 1.2f));
      }},
     {"point", [] { return open_box().light("lamp", point_light({0.2f, 0, 0.5f}, 20)); }, true},
-    {"point_soft",
-     [] { return open_box().light("lamp", point_light({0.2f, 0, 0.5f}, 20, 0.2f)); }},
+    {"point_soft", [] { return open_box().light("lamp", point_light({0.2f, 0, 0.5f}, 20, 0.2f)); }},
     {"point_sphere",
      [] { return open_box().light("lamp", point_light({0.2f, 0, 0.5f}, 20, 0.2f, false)); }},
     {"mesh",
@@ -109,13 +108,13 @@ TEST_P(Oracle, WeightsFollowTheDefinition) {
   const auto scene = param.make().build();
   const SampleCounts settings[] = {
       kAllOne,
-      {1, 1, 0.37f, 1024},   // a render: light paths of a whole frame
-      {0, 1, 1, 1},          // each class left out in turn
+      {1, 1, 0.37f, 1024},  // a render: light paths of a whole frame
+      {0, 1, 1, 1},         // each class left out in turn
       {1, 0, 1, 1},
       {1, 1, 0, 300},
       {1, 1, 1, 0},
-      {1, 1, 0, 0},          // path tracing
-      {0, 0, 0, 64},         // light tracing
+      {1, 1, 0, 0},   // path tracing
+      {0, 0, 0, 64},  // light tracing
       {0.3f, 2.5f, 7, 0.2f},
   };
   for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {

@@ -11,7 +11,8 @@
 
 namespace janus::test {
 
-// --- Node graphs ----------------------------------------------------------------------------------
+// --- Node graphs
+// ----------------------------------------------------------------------------------
 
 inline Node node(std::string name, std::string type, std::map<std::string, NodeInput> inputs) {
   return Node{std::move(name), std::move(type), std::move(inputs), {}};
@@ -47,13 +48,14 @@ inline NodeGraph combine(const std::string& type, const NodeGraph& a, const Node
   graph.nodes = {a.nodes.front(), b.nodes.front()};
   graph.nodes[0].name = "A";
   graph.nodes[1].name = "B";
-  graph.nodes.push_back(node("Top", type,
-                             {{"Fac", factor}, {"Shader", link("A")}, {"Shader_001", link("B")}}));
+  graph.nodes.push_back(
+      node("Top", type, {{"Fac", factor}, {"Shader", link("A")}, {"Shader_001", link("B")}}));
   graph.surface = NodeLink{"Top", "Shader"};
   return graph;
 }
 
-// --- Meshes ---------------------------------------------------------------------------------------
+// --- Meshes
+// ---------------------------------------------------------------------------------------
 
 inline void add_quad(MeshDesc& mesh, vec3 a, vec3 b, vec3 c, vec3 d) {
   const auto first = static_cast<uint32_t>(mesh.positions.size());
@@ -97,7 +99,9 @@ inline MeshDesc ball(float radius, int segments = 16, bool smooth = false) {
       // Poles and seam exactly shared, so that the surface is closed.
       const float r = i == 0 || i == rings ? 0.0f : std::sin(theta);
       const vec3 n(r * std::cos(phi), r * std::sin(phi),
-                   i == 0 ? 1.0f : i == rings ? -1.0f : std::cos(theta));
+                   i == 0       ? 1.0f
+                   : i == rings ? -1.0f
+                                : std::cos(theta));
       mesh.positions.push_back(radius * n);
       if (smooth) {
         mesh.corner_normals.push_back(n);
@@ -118,7 +122,8 @@ inline MeshDesc ball(float radius, int segments = 16, bool smooth = false) {
   return mesh;
 }
 
-// --- Transforms -----------------------------------------------------------------------------------
+// --- Transforms
+// -----------------------------------------------------------------------------------
 
 inline mat4 translation(vec3 t) {
   mat4 m(1.0f);
@@ -154,7 +159,8 @@ inline mat4 look_at(vec3 from, vec3 to) {
   return m;
 }
 
-// --- Scenes ---------------------------------------------------------------------------------------
+// --- Scenes
+// ---------------------------------------------------------------------------------------
 
 class SceneKit {
  public:
@@ -179,8 +185,7 @@ class SceneKit {
     return *this;
   }
   SceneKit& world(Rgb color, float strength = 1.0f) {
-    NodeGraph graph =
-        single("BACKGROUND", {{"Color", vec4(color, 1)}, {"Strength", strength}});
+    NodeGraph graph = single("BACKGROUND", {{"Color", vec4(color, 1)}, {"Strength", strength}});
     builder.set_world({"World", std::move(graph)});
     return *this;
   }
