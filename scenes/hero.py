@@ -14,7 +14,7 @@ import bpy
 
 from scenes import kit
 
-WIDTH, HEIGHT, SAMPLES = 640, 400, 160
+WIDTH, HEIGHT, SAMPLES = 640, 400, 280
 
 # (radius, height) in metres: the outer side from the foot to the rim.
 OUTER = [
@@ -102,7 +102,7 @@ def build(scene: bpy.types.Scene) -> None:
     kit.world(scene)
 
     table = kit.diffuse("Table", (0.30, 0.165, 0.095))
-    wall = kit.diffuse("Wall", (0.045, 0.10, 0.12))
+    wall = kit.diffuse("Wall", (0.14, 0.30, 0.36))
     clear_glass = kit.glass("Glass", (0.985, 1.0, 0.995), 1.5)
     amber = kit.glass("Amber", (1.0, 0.60, 0.22), 1.5)
     brass = kit.metal("Brass", (0.95, 0.72, 0.36))
@@ -117,7 +117,8 @@ def build(scene: bpy.types.Scene) -> None:
 
     # The key is the lamp that makes the caustics: two centimetres wide, behind and to the right.
     kit.area_light(
-        scene, "Key", (0.47, 0.23, 0.42), (0.0, 0.0, 0.05), (0.02, 0.02), 15.0, (1.0, 0.85, 0.64)
+        *(scene, "Key", (0.47, 0.23, 0.42), (0.02, -0.01, 0.05), (0.02, 0.02)),
+        *(1.5, (1.0, 0.85, 0.64), False, 54.0),
     )
     # A large, weak and cool one keeps the shadows open and draws a reflection into the glass.
     kit.area_light(

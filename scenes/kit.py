@@ -291,13 +291,18 @@ def area_light(
     watts: float,
     color: Color = (1.0, 1.0, 1.0),
     seen: bool = False,
+    spread: float = 180.0,
 ) -> bpy.types.Object:
-    """A rectangular lamp that shines from `eye` to `target`; `seen`: the camera sees it."""
+    """A rectangular lamp that shines from `eye` to `target`.
+
+    `seen`: the camera sees it; `spread`: full angle of its beam in degrees.
+    """
     light = bpy.data.lights.new(name, "AREA")
     light.shape = "RECTANGLE"
     light.size, light.size_y = size
     light.energy = watts
     light.color = color
+    light.spread = math.radians(spread)
     item = bpy.data.objects.new(name, light)
     item.matrix_world = aim(eye, target)
     item.visible_camera = seen

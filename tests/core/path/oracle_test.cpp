@@ -83,7 +83,7 @@ std::ostream& operator<<(std::ostream& out, const OracleScene& scene) { return o
 const SampleCounts kAllOne{1, 1, 1, 1};
 
 WeightCheck check(const Scene& scene, Heuristic heuristic, const SampleCounts& counts,
-                  int paths = 400, int max_edges = 8) {
+                  int paths = 4000, int max_edges = 8) {
   constexpr int kSide = 32;
   const auto camera = make_perspective_camera(scene.camera, kSide, kSide);
   Random random(7);
@@ -137,7 +137,7 @@ TEST_P(Oracle, WeightsFollowTheDefinition) {
 TEST_P(Oracle, LongPaths) {
   const auto scene = GetParam().make().build();
   for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {
-    EXPECT_LT(check(*scene, heuristic, {1, 1, 0.5f, 256}, 200, 20).max_error, 1e-4);
+    EXPECT_LT(check(*scene, heuristic, {1, 1, 0.5f, 256}, 1000, 20).max_error, 1e-4);
   }
 }
 

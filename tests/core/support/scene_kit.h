@@ -11,8 +11,7 @@
 
 namespace janus::test {
 
-// --- Node graphs
-// ----------------------------------------------------------------------------------
+// --- Node graphs ---
 
 inline Node node(std::string name, std::string type, std::map<std::string, NodeInput> inputs) {
   return Node{std::move(name), std::move(type), std::move(inputs), {}};
@@ -54,8 +53,7 @@ inline NodeGraph combine(const std::string& type, const NodeGraph& a, const Node
   return graph;
 }
 
-// --- Meshes
-// ---------------------------------------------------------------------------------------
+// --- Meshes ---
 
 inline void add_quad(MeshDesc& mesh, vec3 a, vec3 b, vec3 c, vec3 d) {
   const auto first = static_cast<uint32_t>(mesh.positions.size());
@@ -122,8 +120,7 @@ inline MeshDesc ball(float radius, int segments = 16, bool smooth = false) {
   return mesh;
 }
 
-// --- Transforms
-// -----------------------------------------------------------------------------------
+// --- Transforms ---
 
 inline mat4 translation(vec3 t) {
   mat4 m(1.0f);
@@ -159,8 +156,7 @@ inline mat4 look_at(vec3 from, vec3 to) {
   return m;
 }
 
-// --- Scenes
-// ---------------------------------------------------------------------------------------
+// --- Scenes ---
 
 class SceneKit {
  public:

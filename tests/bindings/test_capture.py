@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Captures, the command line and OpenEXR files."""
+
+import json
+import subprocess
+import sys
+import zipfile
+
+import janus_core
+import numpy as np
+import pytest
+from janus_core import capture, exr
+
+from .conftest import SETTINGS, fill, render
+
+
+@pytest.fixture
+def captured(tmp_path):
+    """(path of a capture, the picture that it must give)"""
+    builder = capture.CapturingBuilder()
+    fill(builder)
+    builder.set_world(name="World", graph=None)
+    path = tmp_path / "scene.npz"
+    builder.save(path, janus_core.RenderSettings(**SETTINGS))
+    return path, render(builder.commit()).snapshot()
+
+
+def command(*arguments):
+    words = [sys.executable, "-m", "janus_core", *map(str, arguments)]
+    return subprocess.run(words, capture_output=True, text=True, timeout=120)
+
+
+def test_same_bits(captured):
+    path, expected = captured
+    builder, settings = capture.load(path)
+    assert settings == janus_core.RenderSettings(**SETTINGS)
+    assert np.array_equal(render(builder.commit()).snapshot(), expected)
+
+
+def test_nothing_in_it_is_pickled(captured):
+    with zipfile.ZipFile(captured[0]) as archive:
+        assert "scene.json" in archive.namelist()
+        assert json.loads(archive.read("scene.json"))
+    with np.load(captured[0], allow_pickle=False) as arrays:
+        for name in arrays.files:
+            if name != "scene.json":
+                assert arrays[name].dtype.kind in "fiu"
+
+
+def test_removed_items_are_not_saved(tmp_path):
+    builder = capture.CapturingBuilder()
+    fill(builder)
+    builder.remove("lamp")
+    builder.save(tmp_path / "a.npz", janus_core.RenderSettings(**SETTINGS))
+    again, _ = capture.load(tmp_path / "a.npz")
+    assert again.commit().counts["lights"] == 0
+
+
+@pytest.mark.parametrize("content", [b"", b"this is no archive", b"PK\x03\x04 broken"])
+def test_foreign_files(tmp_path, content):
+    path = tmp_path / "broken.npz"
+    path.write_bytes(content)
+    with pytest.raises(janus_core.IoError, match="broken.npz"):
+        capture.load(path)
+
+
+def test_cut_file(captured):
+    content = captured[0].read_bytes()
+    captured[0].write_bytes(content[: len(content) // 2])
+    with pytest.raises(janus_core.IoError):
+        capture.load(captured[0])
+
+
+def test_missing_file_and_folder(tmp_path):
+    with pytest.raises(janus_core.IoError, match="none.npz"):
+        capture.load(tmp_path / "none.npz")
+    with pytest.raises(janus_core.IoError):
+        capture.CapturingBuilder().save(tmp_path / "no" / "a.npz", janus_core.RenderSettings())
+
+
+def test_command_gives_the_same_bits(captured, tmp_path):
+    path, expected = captured
+    out, stats = tmp_path / "out.exr", tmp_path / "stats.json"
+    done = command(path, "-o", out, "--stats", stats)
+    assert done.returncode == 0, done.stderr
+    pixels, metadata = exr.read(out)
+    assert np.array_equal(pixels, expected)
+    assert metadata["janus/version"] == janus_core.__version__
+    found = json.loads(stats.read_text())
+    assert found["samples"] == SETTINGS["samples"]
+    assert found["rays"]["camera"] > 0
+    assert found["seconds"] > 0.0
+
+
+def test_command_options(captured, tmp_path):
+    out, stats = tmp_path / "out.exr", tmp_path / "stats.json"
+    words = ("--samples", 2, "--integrator", "pt", "--max-bounces", 1, "--resolution", "16x8")
+    more = ("--threads", 1, "--seed", 9, "--filter", "box", "-q")
+    done = command(captured[0], "-o", out, "--stats", stats, *words, *more)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert exr.read(out)[0].shape == (8, 16, 4)
+    settings = json.loads(stats.read_text())["settings"]
+    assert settings["samples"] == 2 and settings["integrator"] == "pt" and settings["seed"] == 9
+
+
+def test_exit_codes(captured, tmp_path):
+    path, _ = captured
+    out = tmp_path / "out.exr"
+    assert command(path).returncode == 2
+    assert command(path, "-o", out, "--samples", "no").returncode == 2
+    assert command(path, "-o", tmp_path / "out.png").returncode == 2
+    assert command(tmp_path / "none.npz", "-o", out).returncode == 1
+    assert command(path, "-o", tmp_path / "no" / "out.exr").returncode == 1
+    builder = capture.CapturingBuilder()  # without a camera
+    builder.save(tmp_path / "blind.npz", janus_core.RenderSettings())
+    blind = command(tmp_path / "blind.npz", "-o", out)
+    assert blind.returncode == 3
+    assert "camera" in blind.stderr and "Traceback" not in blind.stderr
+    assert not out.exists()
+
+
+def test_exr_round_trip(tmp_path):
+    pixels = np.random.default_rng(1).normal(size=(5, 7, 4)).astype(np.float32)
+    pixels[0, 0] = [np.inf, -0.0, 1e30, 1e-40]
+    path = tmp_path / "ünïcode.exr"
+    exr.write(path, pixels, {"janus/seed": "3"})
+    again, metadata = exr.read(path)
+    assert np.array_equal(again, pixels)
+    assert metadata["janus/seed"] == "3"
+
+
+def test_exr_errors(tmp_path):
+    with pytest.raises(janus_core.IoError, match="none.exr"):
+        exr.read(tmp_path / "none.exr")
+    with pytest.raises(janus_core.IoError, match="no/a.exr"):
+        exr.write(tmp_path / "no" / "a.exr", np.zeros((2, 2, 4), dtype=np.float32))
+    (tmp_path / "text.exr").write_text("no picture")
+    with pytest.raises(janus_core.IoError, match="text.exr"):
+        exr.read(tmp_path / "text.exr")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["text.exr"]  # nothing half written

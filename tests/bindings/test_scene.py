@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""SceneBuilder: what it takes, what it refuses and how it says so."""
+
+import threading
+import time
+
+import janus_core
+import numpy as np
+import pytest
+
+from .conftest import IDENTITY, PLANE, fill, render, shader, translation
+
+
+def error_of(builder, method, *args, **arguments):
+    with pytest.raises(janus_core.SceneError) as caught:
+        getattr(builder, method)(*args, **arguments)
+        builder.commit()
+    return caught.value
+
+
+def test_exceptions():
+    for kind in (janus_core.SceneError, janus_core.IoError, janus_core.Cancelled):
+        assert issubclass(kind, janus_core.Error)
+    assert issubclass(janus_core.Error, Exception)
+
+
+def test_counts(builder):
+    builder.set_instance("second", name="Second", mesh="mesh", transform=translation(0, 0, -1))
+    counts = builder.commit().counts
+    assert counts == {"meshes": 1, "instances": 2, "triangles": 4, "materials": 1, "lights": 1}
+
+
+@pytest.mark.parametrize(
+    ("part", "value"),
+    [
+        ("positions", np.zeros((4, 2))),
+        ("positions", np.array([["a"] * 3])),
+        ("triangles", np.zeros((2, 3), dtype=np.float32)),
+        ("triangles", np.zeros(6, dtype=np.int32)),
+        ("triangles", [[0, 1, 4]]),
+        ("triangles", [[0, 1, -1]]),
+        ("corner_vertices", [0, 1, 2, 9]),
+        ("corner_normals", np.zeros((3, 3))),
+        ("material_indices", [0, 0, 0]),
+    ],
+)
+def test_wrong_mesh_names_key_and_part(builder, part, value):
+    error = error_of(builder, "set_mesh", "mesh", name="Floor", **{**PLANE, part: value})
+    assert error.key == "mesh"
+    assert error.path.startswith(part)
+    assert error.message in str(error) and "mesh" in str(error)
+
+
+def test_arrays_of_any_layout_give_the_same_scene(builder):
+    expected = render(builder.commit()).snapshot()
+    wide = np.zeros((4, 6), dtype=np.float64)
+    wide[:, ::2] = PLANE["positions"]
+    builder.set_mesh(
+        "mesh",
+        name="Floor",
+        positions=wide[:, ::2],
+        triangles=np.asfortranarray(PLANE["triangles"].astype(np.uint64)),
+    )
+    assert np.array_equal(render(builder.commit()).snapshot(), expected)
+    builder.set_mesh("mesh", name="Floor", **{k: v.tolist() for k, v in PLANE.items()})
+    assert np.array_equal(render(builder.commit()).snapshot(), expected)
+
+
+def test_arrays_are_copied(builder):
+    positions = PLANE["positions"].copy()
+    builder.set_mesh("mesh", name="Floor", positions=positions, triangles=PLANE["triangles"])
+    expected = render(builder.commit()).snapshot()
+    positions[:] = np.nan
+    assert np.array_equal(render(builder.commit()).snapshot(), expected)
+
+
+def test_triangles_that_are_not_finite_are_named(builder):
+    positions = PLANE["positions"].copy()
+    positions[3] = np.nan
+    builder.set_mesh("mesh", name="Floor", positions=positions, triangles=PLANE["triangles"])
+    scene = builder.commit()
+    assert scene.counts["triangles"] == 1
+    (found,) = scene.diagnostics
+    assert (found.severity, found.object) == ("WARNING", "Floor")
+
+
+def test_broken_references(builder):
+    instance = {"name": "I", "transform": IDENTITY}
+    assert error_of(builder, "set_instance", "i", mesh="none", **instance).path == "mesh"
+    error = error_of(builder, "set_instance", "i", mesh="mesh", materials=["none"], **instance)
+    assert (error.key, error.path) == ("i", "materials")
+
+
+def test_matrices(builder):
+    error = error_of(builder, "set_instance", "i", name="I", mesh="mesh", transform=np.eye(3))
+    assert (error.key, error.path) == ("i", "transform")
+    builder.set_instance("i", name="Flat", mesh="mesh", transform=np.diag([1.0, 0, 1, 1]))
+    assert [d.object for d in builder.commit().diagnostics] == ["Flat"]
+
+
+def test_no_camera():
+    with pytest.raises(janus_core.SceneError) as caught:
+        janus_core.SceneBuilder().commit()
+    assert caught.value.key == "camera"
+
+
+@pytest.mark.parametrize("window", [(0, 0, -1, 1), (-1, 1, np.nan, 1)])
+def test_camera_without_a_window(builder, window):
+    error = error_of(builder, "set_camera", name="Cam", transform=IDENTITY, window=window)
+    assert error.key == "Cam"
+
+
+def test_camera_type(builder):
+    arguments = {"name": "Cam", "transform": IDENTITY, "window": (-1, 1, -1, 1)}
+    assert error_of(builder, "set_camera", type="PANO", **arguments).path == "type"
+
+
+def test_wrong_words(builder):
+    with pytest.raises(ValueError, match="POINT, SPOT, SUN, AREA"):
+        builder.set_light("l", name="L", type="LASER", transform=IDENTITY)
+    with pytest.raises(ValueError, match="ELLIPSE"):
+        builder.set_light("l", name="L", type="AREA", transform=IDENTITY, shape="STAR")
+
+
+@pytest.mark.parametrize(
+    ("graph", "path"),
+    [
+        ({}, "graph"),
+        ({"nodes": [3]}, "nodes[0]"),
+        ({"nodes": [{"name": "A"}]}, "nodes[0]"),
+        ({"nodes": [], "surface": {"link": ["A"]}}, "surface"),
+        (shader("BSDF_DIFFUSE", Color=[1, 2]), "nodes[Shader].inputs[Color]"),
+        (shader("BSDF_DIFFUSE", Color={"link": 3}), "nodes[Shader].inputs[Color]"),
+        (shader("BSDF_DIFFUSE", Color=["a", "b", "c"]), "nodes[Shader].inputs[Color]"),
+    ],
+)
+def test_wrong_graphs(builder, graph, path):
+    error = error_of(builder, "set_material", "m", name="Paint", graph=graph)
+    assert (error.key, error.path) == ("m", path)
+
+
+def test_unsupported_is_named_not_fatal(builder):
+    builder.set_material("m", name="Paint", graph=shader("BSDF_HAIR"))
+    builder.set_light("sun", name="Sun", type="SUN", transform=IDENTITY)
+    found = builder.commit().diagnostics
+    assert ("Paint", "Shader") in [(d.material, d.node) for d in found]
+    assert "Sun" in [d.object for d in found]
+    assert all(d.severity == "WARNING" and d.message for d in found)
+    assert "Paint" in repr(found[0]) + repr(found[1])
+
+
+def test_cycle_in_a_graph_ends(builder):
+    def add(name, a, b):
+        inputs = {"Shader": {"link": [a, "Shader"]}, "Shader_001": {"link": [b, "Shader"]}}
+        return {"name": name, "type": "ADD_SHADER", "inputs": inputs, "properties": {}}
+
+    loop = {"nodes": [add("A", "A", "A")], "surface": {"link": ["A", "Shader"]}}
+    wide = [add(str(i), str(i + 1), str(i + 1)) for i in range(60)]
+    ladder = {"nodes": wide, "surface": {"link": ["0", "Shader"]}}
+    for graph in (loop, ladder):
+        builder.set_material("m", name="Paint", graph=graph)
+        assert [d.material for d in builder.commit().diagnostics] == ["Paint"]
+
+
+def test_remove_and_replace(builder):
+    lit = render(builder.commit()).snapshot()
+    assert lit[..., :3].max() > 0
+    builder.remove("lamp")
+    builder.remove("never there")
+    assert render(builder.commit()).snapshot()[..., :3].max() == 0
+    fill(builder)
+    assert np.array_equal(render(builder.commit()).snapshot(), lit)
+
+
+def large(builder, count=1_500_000):
+    """A mesh that takes long enough to build for polling to be seen."""
+    rng = np.random.default_rng(1)
+    positions = rng.random((count, 3), dtype=np.float32)
+    triangles = rng.integers(0, count, (count, 3), dtype=np.int32)
+    builder.set_mesh("mesh", name="Large", positions=positions, triangles=triangles)
+
+
+def test_poll_cancels_commit(builder):
+    large(builder)
+    with pytest.raises(janus_core.Cancelled):
+        builder.commit(poll=lambda: True)
+
+
+def test_error_in_poll_comes_through(builder):
+    large(builder)
+
+    def poll():
+        raise RuntimeError("from poll")
+
+    with pytest.raises(RuntimeError, match="from poll"):
+        builder.commit(poll=poll)
+
+
+def test_commit_lets_others_run(builder):
+    large(builder, 400_000)
+    calls, stop = [], threading.Event()
+
+    def count():
+        while not stop.is_set():
+            calls.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    begin = time.monotonic()
+    builder.commit()
+    end = time.monotonic()
+    stop.set()
+    thread.join()
+    during = [c for c in calls if begin < c < end]
+    assert len(during) > 20 * (end - begin)
+
+
+def test_everything_is_documented():
+    for name in janus_core.__all__:
+        item = getattr(janus_core, name)
+        if name != "__version__":
+            assert item.__doc__, name
+        for member, value in vars(item).items() if isinstance(item, type) else ():
+            if not member.startswith("_") and callable(value):
+                assert value.__doc__, f"{name}.{member}"
+
+
+def test_node_types_are_listed():
+    types = {node["type"]: node for node in janus_core.node_types()}
+    assert {"BSDF_DIFFUSE", "BSDF_GLASS", "BSDF_GLOSSY", "EMISSION", "MIX_SHADER"} <= set(types)
+    inputs = {i["identifier"]: i for i in types["BSDF_GLASS"]["inputs"]}
+    assert inputs["IOR"] == {"identifier": "IOR", "type": "FLOAT", "default": 1.5}
+
+
+def test_build_info():
+    info = janus_core.build_info()
+    assert info["version"] == janus_core.__version__
+    assert info["embree"].split(".")[0] in "34"
