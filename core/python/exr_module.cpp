@@ -3,6 +3,7 @@
 // The module janus_core._exr: OpenEXR files. Apart from _core, so that Blender never loads OpenEXR.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <algorithm>
 #include <memory>

@@ -154,6 +154,8 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
     }
     const double error = std::abs(weight - path.weight(s, heuristic, counts));
     check.max_error = std::max(check.max_error, error);
+    check.sum_error += error;
+    check.inaccurate += error > 1e-4;
     ++check.paths;
     ++check.by_class[s < 2 ? s : s == path.k() ? 3 : 2];
   };

@@ -115,8 +115,10 @@ class Compiler {
       warn(*node, "the shader tree has a cycle here; it is cut");
       return;
     }
-    if (++visits_ > kMaxVisits) {
-      warn(*node, "the shader mixes too many closures; the rest is left out");
+    if (visits_++ >= kMaxVisits) {
+      if (visits_ == kMaxVisits + 1) {
+        warn(*node, "the shader mixes too many closures; the rest is left out");
+      }
       return;
     }
     path_.push_back(node);

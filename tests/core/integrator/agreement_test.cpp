@@ -35,7 +35,7 @@ const AgreementScene kScenes[] = {
        light.transform = light.transform * scaling({1.5f, 0.4f, 1});
        return room().light("l", light);
      },
-     true},
+     true, 160},
     {"point", [] { return room().light("l", point_light({0.1f, 0, 0.6f}, 20)); }, true},
     {"point_soft", [] { return room().light("l", point_light({0.1f, 0, 0.6f}, 20, 0.3f)); }, true},
     {"point_sphere",
@@ -47,7 +47,7 @@ const AgreementScene kScenes[] = {
            translation({0, 0, 0.8f}) * rotation({0, 1, 0}, 2.6f) * scaling({1, -2, 1}));
      },
      true},
-    {"world", [] { return room().world(Rgb(0.5f, 0.7f, 1)); }, true},
+    {"world", [] { return room().world(Rgb(0.5f, 0.7f, 1)); }, true, 96},
     {"shading_normals",  // where the adjoint BSDF differs from the BSDF
      [] {
        return room()

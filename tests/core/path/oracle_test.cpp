@@ -94,11 +94,21 @@ WeightCheck check(const Scene& scene, Heuristic heuristic, const SampleCounts& c
         check_weights(scene, *camera, raster, heuristic, counts, WalkSettings{max_edges}, 3, i);
     sum.paths += c.paths;
     sum.max_error = std::max(sum.max_error, c.max_error);
+    sum.sum_error += c.sum_error;
+    sum.inaccurate += c.inaccurate;
     for (int k = 0; k < 4; ++k) {
       sum.by_class[k] += c.by_class[k];
     }
   }
   return sum;
+}
+
+// The recursion works in single precision: at grazing angles, a few joins in a thousand lose
+// digits. A factor of 1.001 in any one density would show in the mean.
+void expect_exact(const WeightCheck& result) {
+  EXPECT_LT(result.sum_error, 3e-6 * static_cast<double>(result.paths));
+  EXPECT_LT(result.inaccurate, 1 + result.paths / 1000);
+  EXPECT_LT(result.max_error, 2e-3);
 }
 
 class Oracle : public ::testing::TestWithParam<OracleScene> {};
@@ -123,7 +133,7 @@ TEST_P(Oracle, WeightsFollowTheDefinition) {
       SCOPED_TRACE(::testing::Message()
                    << "counts " << counts.hit << " " << counts.nee << " " << counts.connection
                    << " " << counts.splat << ", power " << (heuristic == Heuristic::Power));
-      EXPECT_LT(result.max_error, 1e-4);
+      expect_exact(result);
       // What was meant to be tested has been.
       EXPECT_EQ(result.by_class[0] > 20, counts.hit > 0 && !param.light_is_point);
       EXPECT_EQ(result.by_class[1] > 100, counts.nee > 0 && param.nee);
@@ -137,7 +147,7 @@ TEST_P(Oracle, WeightsFollowTheDefinition) {
 TEST_P(Oracle, LongPaths) {
   const auto scene = GetParam().make().build();
   for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {
-    EXPECT_LT(check(*scene, heuristic, {1, 1, 0.5f, 256}, 1000, 20).max_error, 1e-4);
+    expect_exact(check(*scene, heuristic, {1, 1, 0.5f, 256}, 1000, 20));
   }
 }
 

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Path tracing, light tracing and BDPT render the same picture: 0.3 % of the mean, block by block."""
+
+import numpy as np
+import pytest
+
+from .statistics import compare
+
+TOLERANCE = 0.003
+SEEDS = 8
+
+
+@pytest.mark.parametrize(
+    ("scene", "samples"),
+    [
+        ("diffuse_box", {"bdpt": 160, "pt": 1024, "lt": 256}),
+        ("glass_box", {"bdpt": 192, "pt": 1024}),
+        ("hero_soft", {"bdpt": 192, "pt": 1536}),
+    ],
+)
+def test_integrators_agree(captured, scene, samples):
+    pictures = {name: captured(scene).series(name, n, SEEDS) for name, n in samples.items()}
+    for other in samples.keys() - {"bdpt"}:
+        found = compare(pictures["bdpt"], pictures[other], block=8)
+        print(f"{scene}, bdpt against {other}: {found}")
+        found.check(TOLERANCE)
+
+
+def test_light_tracing_agrees_on_the_caustic_of_the_hero(captured):
+    """Left of the glass, where nothing is seen by way of a specular surface."""
+    bdpt = captured("hero_soft").series("bdpt", 192, SEEDS)
+    lt = captured("hero_soft").series("lt", 192, SEEDS)
+    height, width = bdpt[0].shape[:2]
+    mask = np.zeros((height, width), dtype=bool)
+    mask[:, : int(0.42 * width)] = True
+    found = compare(bdpt, lt, block=8, mask=mask)
+    print(f"hero_soft, bdpt against lt: {found}")
+    found.check(TOLERANCE)
+
+
+def test_a_wrong_picture_is_found(captured):
+    """The comparison has the power that the tests above rely on."""
+    bdpt = captured("diffuse_box").series("bdpt", 160, SEEDS)
+    dimmer = [1.006 * picture for picture in captured("diffuse_box").series("pt", 1024, SEEDS)]
+    with pytest.raises(AssertionError, match="the means differ"):
+        compare(bdpt, dimmer, block=8).check(TOLERANCE)
