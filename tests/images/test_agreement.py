@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Path tracing, light tracing and BDPT render the same picture: 0.3 % of the mean, block by block."""
+"""Path tracing, light tracing and BDPT render the same picture: within 0.3 %, and by blocks."""
 
 import numpy as np
 import pytest
@@ -14,8 +14,8 @@ SEEDS = 8
     ("scene", "samples"),
     [
         ("diffuse_box", {"bdpt": 160, "pt": 1024, "lt": 256}),
-        ("glass_box", {"bdpt": 192, "pt": 1024}),
-        ("hero_soft", {"bdpt": 192, "pt": 1536}),
+        ("glass_box", {"bdpt": 256, "pt": 1536}),
+        ("hero_soft", {"bdpt": 256, "pt": 2048}),
     ],
 )
 def test_integrators_agree(captured, scene, samples):
@@ -28,8 +28,8 @@ def test_integrators_agree(captured, scene, samples):
 
 def test_light_tracing_agrees_on_the_caustic_of_the_hero(captured):
     """Left of the glass, where nothing is seen by way of a specular surface."""
-    bdpt = captured("hero_soft").series("bdpt", 192, SEEDS)
-    lt = captured("hero_soft").series("lt", 192, SEEDS)
+    bdpt = captured("hero_soft").series("bdpt", 256, SEEDS)
+    lt = captured("hero_soft").series("lt", 256, SEEDS)
     height, width = bdpt[0].shape[:2]
     mask = np.zeros((height, width), dtype=bool)
     mask[:, : int(0.42 * width)] = True

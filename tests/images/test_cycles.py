@@ -15,8 +15,8 @@ def test_parity(captured, tmp_path, scene):
     for seed in range(1, 7):
         path = tmp_path / f"{seed}.exr"
         size = ("--resolution", f"{width}x{height}", "--seed", seed)
-        driven(scene, "--engine", "cycles", *size, "--samples", 1024, "-o", path)
+        driven(scene, "--engine", "cycles", *size, "--samples", 2048, "-o", path)
         cycles.append(exr.read(path)[0])
-    found = compare(captured(scene).series("bdpt", 192, 6), cycles, block=8)
+    found = compare(captured(scene).series("bdpt", 256, 6), cycles, block=8)
     print(f"{scene}, bdpt against Cycles: {found}")
     found.check(0.003)

@@ -15,6 +15,8 @@ struct WeightCheck {
   uint64_t paths = 0;         // joins compared
   uint64_t by_class[4] = {};  // hit, nee, connection, splat
   double max_error = 0.0;     // largest |weight - definition|
+  double sum_error = 0.0;     // sum of |weight - definition|
+  uint64_t inaccurate = 0;    // joins with an error above 1e-4
 };
 
 // Traces light path `index` and a camera path through `raster`, joins them in every way, and
