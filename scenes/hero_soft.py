@@ -6,6 +6,8 @@ Less beautiful, but every integrator reaches a small error in a short time: for 
 
 from __future__ import annotations
 
+import math
+
 import bpy
 
 from scenes import hero, kit
@@ -18,3 +20,4 @@ def build(scene: bpy.types.Scene) -> None:
     kit.view(scene, "Standard")
     key = scene.objects["Key"].data
     key.size = key.size_y = LAMP
+    key.spread, key.energy = math.pi, 15.0
