@@ -42,6 +42,7 @@ class Captured:
         from janus_core import capture
 
         self._core = janus_core
+        self._series: dict[tuple, list] = {}
         self.path = path
         builder, self.settings = capture.load(str(path))
         self.scene = builder.commit()
@@ -56,12 +57,15 @@ class Captured:
         return session.snapshot("Combined")
 
     def series(self, integrator: str, samples: int, seeds: int, **changes: object) -> list:
-        """Independent pictures; no two integrators ever share a seed."""
-        first = 1000 * ("pt", "lt", "bdpt").index(integrator) + 1
-        return [
-            self.render(integrator=integrator, samples=samples, seed=first + i, **changes)
-            for i in range(seeds)
-        ]
+        """Independent pictures, made once; no two integrators ever share a seed."""
+        key = (integrator, samples, seeds, *sorted(changes.items()))
+        if key not in self._series:
+            first = 1000 * ("pt", "lt", "bdpt").index(integrator) + 1
+            self._series[key] = [
+                self.render(integrator=integrator, samples=samples, seed=first + i, **changes)
+                for i in range(seeds)
+            ]
+        return self._series[key]
 
 
 @pytest.fixture(scope="session")

@@ -15,7 +15,7 @@ SEEDS = 8
     [
         ("diffuse_box", {"bdpt": 160, "pt": 1024, "lt": 256}),
         ("glass_box", {"bdpt": 256, "pt": 1536}),
-        ("hero_soft", {"bdpt": 256, "pt": 2048}),
+        ("hero_soft", {"bdpt": 1600, "pt": 1024}),
     ],
 )
 def test_integrators_agree(captured, scene, samples):
@@ -28,14 +28,14 @@ def test_integrators_agree(captured, scene, samples):
 
 def test_light_tracing_agrees_on_the_caustic_of_the_hero(captured):
     """Left of the glass, where nothing is seen by way of a specular surface."""
-    bdpt = captured("hero_soft").series("bdpt", 256, SEEDS)
-    lt = captured("hero_soft").series("lt", 256, SEEDS)
+    bdpt = captured("hero_soft").series("bdpt", 1600, SEEDS)
+    lt = captured("hero_soft").series("lt", 4096, SEEDS)
     height, width = bdpt[0].shape[:2]
     mask = np.zeros((height, width), dtype=bool)
     mask[:, : int(0.42 * width)] = True
     found = compare(bdpt, lt, block=8, mask=mask)
     print(f"hero_soft, bdpt against lt: {found}")
-    found.check(TOLERANCE)
+    found.check(TOLERANCE, error=0.5 * TOLERANCE)
 
 
 def test_a_wrong_picture_is_found(captured):

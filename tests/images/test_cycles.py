@@ -17,6 +17,6 @@ def test_parity(captured, tmp_path, scene):
         size = ("--resolution", f"{width}x{height}", "--seed", seed)
         driven(scene, "--engine", "cycles", *size, "--samples", 2048, "-o", path)
         cycles.append(exr.read(path)[0])
-    found = compare(captured(scene).series("bdpt", 256, 6), cycles, block=8)
+    found = compare(captured(scene).series("bdpt", 256, 8), cycles, block=8)
     print(f"{scene}, bdpt against Cycles: {found}")
     found.check(0.003)

@@ -47,8 +47,8 @@ TEST(Camera, DensityIsPerPixel) {
     const float z = -1 + 2 * (i + 0.5f) / kCells, r = std::sqrt(1 - z * z);
     for (int j = 0; j < kCells; ++j) {
       const float phi = 2 * kPi * (j + 0.5f) / kCells;
-      const auto c = camera->connect(
-          center + 5.0f * vec3(r * std::cos(phi), r * std::sin(phi), z), 0.0f);
+      const auto c =
+          camera->connect(center + 5.0f * vec3(r * std::cos(phi), r * std::sin(phi), z), 0.0f);
       sum += c ? c->pdf_solid : 0.0;
     }
   }

@@ -60,13 +60,15 @@ const LightCase kCases[] = {
      false},
     {"mesh",  // both sides of 0.4 * 0.5 * 1.5 m^2 shine with pi L
      [] {
-       return SceneKit().add("lamp", plane(0.4f, 0.5f), emission(Rgb(1), 3),
-                             translation({0.1f, 0.2f, 0.9f}) * rotation({1, 2, 0}, 2.5f) *
-                                 scaling({-1, 1.5f, 1}));
+       return SceneKit().add(
+           "lamp", plane(0.4f, 0.5f), emission(Rgb(1), 3),
+           translation({0.1f, 0.2f, 0.9f}) * rotation({1, 2, 0}, 2.5f) * scaling({-1, 1.5f, 1}));
      },
      2 * 0.4 * 0.5 * 1.5 * 3 * 3.14159265},
     {"world",  // geometry below the receiver sets the extent of the scene
-     [] { return SceneKit().add("floor", plane(3, 3), {}, translation({0, 0, -0.1f})).world(Rgb(2)); },
+     [] {
+       return SceneKit().add("floor", plane(3, 3), {}, translation({0, 0, -0.1f})).world(Rgb(2));
+     },
      0, true, false},
 };
 
@@ -77,8 +79,8 @@ std::optional<LightHit> hit_light(const Scene& scene, const Ray& ray) {
   if (surface) {
     size_t index;
     const MeshLight* mesh = scene.mesh_light(*surface, index);
-    return mesh ? std::optional(mesh->at(*surface, ray.origin, ray.direction,
-                                         scene.shade(*surface).emission))
+    return mesh ? std::optional(
+                      mesh->at(*surface, ray.origin, ray.direction, scene.shade(*surface).emission))
                 : std::nullopt;
   }
   return scene.lights[0]->intersect(ray);

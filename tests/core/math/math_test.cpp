@@ -82,8 +82,7 @@ TEST(Warp, Sphere) {
   expect_density(square_to_sphere, [](vec3) { return 0.25f * kInvPi; });
 }
 TEST(Warp, CosineHemisphere) {
-  expect_density(square_to_cosine_hemisphere,
-                 [](vec3 d) { return std::max(0.0f, d.z) * kInvPi; });
+  expect_density(square_to_cosine_hemisphere, [](vec3 d) { return std::max(0.0f, d.z) * kInvPi; });
 }
 TEST(Warp, CosineCone) {  // edges of the cones on edges of cells: cos = 0.5 and 0.75
   expect_density([](vec2 u) { return square_to_cosine_cone(u, 0.75f); },

@@ -96,9 +96,7 @@ TEST_P(MisRecursion, FollowsTheDefinition) {
     const RandomPath path(random, 2 + n % 6);
     double total = 0;
     for (int s = 0; s <= path.k; ++s) {
-      total += path.allowed(s)
-                   ? std::pow(count(counts, s, path.k) * path.density(s), exponent)
-                   : 0;
+      total += path.allowed(s) ? std::pow(count(counts, s, path.k) * path.density(s), exponent) : 0;
     }
     if (total == 0) {
       continue;

@@ -63,9 +63,9 @@ TEST(Sampler, StreamsSeedsSequencesAndDimensionsAreIndependent) {
   };
   const auto base = first(1, Stream::Camera, 3, 1);
   for (const auto& other :
-       {first(1, Stream::Light, 3, 1), first(1, Stream::Pilot, 3, 1), first(2, Stream::Camera, 3, 1),
-        first(1, Stream::Camera, 4, 1), first(1, Stream::Camera, uint64_t{3} << 32, 1),
-        first(1, Stream::Camera, 3, 2)}) {
+       {first(1, Stream::Light, 3, 1), first(1, Stream::Pilot, 3, 1),
+        first(2, Stream::Camera, 3, 1), first(1, Stream::Camera, 4, 1),
+        first(1, Stream::Camera, uint64_t{3} << 32, 1), first(1, Stream::Camera, 3, 2)}) {
     double covariance = 0;
     for (size_t i = 0; i < base.size(); ++i) {
       covariance += (base[i] - 0.5) * (other[i] - 0.5) * 12 / base.size();

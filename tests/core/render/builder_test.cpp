@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What cannot be rendered is refused by name; what can be survived is rendered and named.
+#include "janus/render/builder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "janus/util/error.h"
+#include "support/scene_kit.h"
+
+namespace janus::test {
+namespace {
+
+void expect_error(const SceneKit& kit, const std::string& key, const std::string& path) {
+  try {
+    kit.build();
+    ADD_FAILURE() << "no error for " << key << " " << path;
+  } catch (const SceneError& e) {
+    EXPECT_EQ(e.key, key);
+    EXPECT_EQ(e.path, path);
+    EXPECT_FALSE(e.message.empty());
+    EXPECT_NE(std::string(e.what()).find(key), std::string::npos);
+  }
+}
+
+bool warned(const Scene& scene, const std::string& object, const std::string& part) {
+  return std::any_of(scene.diagnostics.begin(), scene.diagnostics.end(), [&](const auto& d) {
+    return d.object == object && d.message.find(part) != std::string::npos;
+  });
+}
+
+SceneKit with_mesh(MeshDesc mesh) { return SceneKit().add("thing", std::move(mesh), {}); }
+
+TEST(Builder, RefusesMeshesWithIndicesOutOfRange) {
+  MeshDesc mesh = plane(1, 1);
+  mesh.triangles[1].y = 4;
+  expect_error(with_mesh(mesh), "thing", "triangles[1]");
+  mesh = plane(1, 1);
+  mesh.corner_vertices = {0, 1, 2, 9};
+  expect_error(with_mesh(mesh), "thing", "corner_vertices[3]");
+  mesh = plane(1, 1);
+  mesh.corner_normals.resize(3);
+  expect_error(with_mesh(mesh), "thing", "corner_normals");
+  mesh = plane(1, 1);
+  mesh.material_indices = {0};
+  expect_error(with_mesh(mesh), "thing", "material_indices");
+}
+
+TEST(Builder, RefusesMissingReferences) {
+  SceneKit kit = with_mesh(plane(1, 1));
+  InstanceDesc instance;
+  instance.mesh = "nothing";
+  kit.builder.set_instance("lost", instance);
+  expect_error(kit, "lost", "mesh");
+  instance.mesh = "thing";
+  instance.materials = {"no such"};
+  kit.builder.set_instance("lost", instance);
+  expect_error(kit, "lost", "materials");
+  kit.builder.remove("lost");
+  EXPECT_EQ(kit.build()->instances.size(), 1u);
+}
+
+TEST(Builder, RefusesCamerasWithoutAPicture) {
+  EXPECT_THROW(SceneBuilder().commit(CancelToken()), SceneError);  // none at all
+  const auto refused = [](auto&& spoil) {
+    SceneBuilder builder;
+    CameraDesc desc;
+    desc.name = "Camera";
+    spoil(desc);
+    builder.set_camera(desc);
+    EXPECT_THROW(builder.commit(CancelToken()), SceneError);
+  };
+  refused([](CameraDesc& c) { c.right = c.left; });
+  refused([](CameraDesc& c) { c.top = NAN; });
+  refused([](CameraDesc& c) { c.left = -INFINITY; });
+  refused([](CameraDesc& c) { c.transform = scaling(vec3(0)); });
+  refused([](CameraDesc& c) { c.transform[3][0] = NAN; });
+  refused([](CameraDesc& c) { c.clip_end = c.clip_start; });
+  refused([](CameraDesc& c) { c.clip_start = NAN; });
+}
+
+TEST(Builder, LeavesOutBrokenTriangles) {
+  MeshDesc mesh = plane(1, 1);
+  add_quad(mesh, {0, 0, 1}, {1, 0, NAN}, {1, 1, 1}, {0, INFINITY, 1});
+  const auto scene = with_mesh(mesh).build();
+  EXPECT_EQ(scene->meshes[0].triangles().size(), 2u);
+  EXPECT_TRUE(warned(*scene, "thing", "2 triangles"));
+  EXPECT_TRUE(scene->intersect(Ray{vec3(0.1f, 0.2f, 1), vec3(0, 0, -1)}));
+}
+
+TEST(Builder, LeavesOutFlatInstances) {
+  for (const mat4& m : {scaling({1, 1, 0}), translation({0, NAN, 0})}) {
+    const auto scene = SceneKit().add("flat", plane(1, 1), {}, m).build();
+    EXPECT_TRUE(scene->instances.empty());
+    EXPECT_TRUE(warned(*scene, "flat", "left out"));
+  }
+}
+
+TEST(Builder, LeavesOutLampsThatCannotShine) {
+  const auto refused = [](LightDesc desc) {
+    const auto scene = SceneKit().light("lamp", desc).build();
+    EXPECT_TRUE(scene->lights.empty());
+    EXPECT_TRUE(warned(*scene, "lamp", "")) << "nothing was said";
+  };
+  refused(point_light({0, 0, NAN}, 1));
+  refused(point_light({0, 0, 0}, INFINITY));
+  refused(point_light({0, 0, 0}, -1));
+  refused(area_light({0, 0, 1}, {0, 0, 0}, 0, 1));
+  LightDesc thin = area_light({0, 0, 1}, {0, 0, 0}, 1, 1);
+  thin.shape = AreaShape::Rectangle;
+  thin.size_y = 0;
+  refused(thin);
+  thin.size_y = NAN;
+  refused(thin);
+  LightDesc flat = area_light({0, 0, 1}, {0, 0, 0}, 1, 1);
+  flat.transform = scaling({1, 0, 1});
+  refused(flat);
+  LightDesc line = area_light({0, 0, 1}, {0, 0, 0}, 1, 1);
+  line.transform[1] = line.transform[0];  // sheared until nothing is left
+  refused(line);
+  // No light at all is not worth a word.
+  EXPECT_TRUE(SceneKit().light("off", point_light({0, 0, 0}, 0)).build()->diagnostics.empty());
+}
+
+TEST(Builder, EmptyScenesAreScenes) {
+  const auto scene = SceneKit().build();
+  EXPECT_FALSE(scene->intersect(Ray{vec3(0), vec3(0, 0, 1)}));
+  EXPECT_FALSE(scene->occluded(vec3(0), vec3(1)));
+  EXPECT_FALSE(scene->light_sampler.emits());
+  EXPECT_FALSE(scene->light_sampler.illuminates());
+}
+
+TEST(Builder, SlotsPickMaterials) {
+  SceneKit kit = with_mesh(plane(1, 1));
+  MeshDesc mesh = plane(2, 2);
+  mesh.material_indices = {0, 7};  // beyond the list: the last slot, as in Cycles
+  kit.builder.set_mesh("thing", mesh);
+  kit.builder.set_material("dark", {"dark", diffuse(Rgb(0.1f))});
+  kit.builder.set_material("lamp", {"lamp", emission(Rgb(1), 2)});
+  InstanceDesc instance;
+  instance.mesh = "thing";
+  instance.materials = {std::nullopt, "dark", "lamp"};
+  kit.builder.set_instance("thing", instance);
+  const auto scene = kit.build();
+  const auto emitted = [&](float x, float y) {
+    const auto hit = scene->intersect(Ray{vec3(x, y, 1), vec3(0, 0, -1)});
+    return scene->shade(*hit).emission.x;
+  };
+  EXPECT_EQ(emitted(0.5f, -0.5f), 0.0f);
+  EXPECT_EQ(emitted(-0.5f, 0.5f), 2.0f);
+  ASSERT_EQ(scene->lights.size(), 1u);
+  EXPECT_NEAR(scene->lights[0]->power(), 2 * 3.14159265 * 2 * 2, 1e-3);  // one triangle, two sides
+}
+
+TEST(Builder, TheOrderOfCallsDoesNotMatter) {
+  const auto build = [](bool reverse) {
+    SceneKit kit;
+    const auto add = [&](bool first) {
+      const std::string name = first ? "a" : "b";
+      kit.add(name, ball(first ? 0.5f : 0.4f, 8), emission(Rgb(1), first ? 1.0f : 2.0f));
+      kit.light(name + "lamp", point_light({0, 0, 1}, first ? 1.0f : 3.0f));
+    };
+    add(!reverse);
+    add(reverse);
+    return kit.build();
+  };
+  const auto x = build(false), y = build(true);
+  ASSERT_EQ(x->lights.size(), y->lights.size());
+  for (size_t i = 0; i < x->lights.size(); ++i) {
+    EXPECT_EQ(x->lights[i]->name, y->lights[i]->name);
+    EXPECT_EQ(x->light_sampler.pmf_emission(i), y->light_sampler.pmf_emission(i));
+  }
+}
+
+TEST(Builder, CanBeCancelled) {
+  CancelToken cancel;
+  cancel.cancel();
+  EXPECT_THROW(open_box().builder.commit(cancel), Cancelled);
+}
+
+}  // namespace
+}  // namespace janus::test
