@@ -4,8 +4,11 @@
 import json
 import re
 import struct
+import subprocess
+import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import MODULE, ROOT, Blender
 
@@ -80,6 +83,20 @@ def test_hero_resembles_cycles_in_the_same_process(hero: dict):
 
 def test_janus_renders_the_same_after_cycles(hero: dict):
     assert hero["janus_again"] == hero["janus"]
+
+
+def test_the_bpy_module_renders_the_same(hero: dict, installed: Blender, tmp_path: Path):
+    """Two Blenders may round a mesh differently; that may not show."""
+    exr = pytest.importorskip("janus_core.exr")
+    path = tmp_path / "hero.exr"
+    driver = [sys.executable, str(ROOT / "scenes" / "render.py"), "hero"]
+    size = ["--resolution", "96x64", "--samples", "16"]
+    subprocess.run([*driver, *size, "-o", str(path)], check=True, timeout=300)
+    ours, theirs = exr.read(path)[0], exr.read(installed.folder / "janus.exr")[0]
+    difference = np.abs(ours - theirs)[..., :3].max(axis=2)
+    print(f"bits equal: {np.array_equal(ours, theirs)}, largest difference {difference.max():.3g}")
+    assert abs(ours[..., :3].mean() / theirs[..., :3].mean() - 1.0) < 5e-4
+    assert (difference <= 1e-3 * np.maximum(1.0, theirs[..., :3].max(axis=2))).mean() >= 0.999
 
 
 def test_the_picture_is_stamped(hero: dict, installed: Blender):

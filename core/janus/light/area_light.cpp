@@ -17,7 +17,9 @@ class AreaLight final : public Light {
     ellipse_ = desc.shape == AreaShape::Disk || desc.shape == AreaShape::Ellipse;
     half_u_ = 0.5f * desc.size * vec3(desc.transform[0]);
     half_v_ = 0.5f * (two_sizes ? desc.size_y : desc.size) * vec3(desc.transform[1]);
-    normal_ = normalize(-vec3(desc.transform[2]));
+    // The plane's own normal: under a sheared transform the local axis is not perpendicular to it.
+    const vec3 plane = cross(half_u_, half_v_);
+    normal_ = normalize(dot(plane, vec3(desc.transform[2])) < 0.0f ? plane : -plane);
     const float parallelogram = 4.0f * glm::length(cross(half_u_, half_v_));
     area_ = ellipse_ ? 0.25f * kPi * parallelogram : parallelogram;
 

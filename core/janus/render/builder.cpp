@@ -172,11 +172,11 @@ class Commit {
       case LightType::Area: {
         const bool two_sizes =
             lamp.shape == AreaShape::Rectangle || lamp.shape == AreaShape::Ellipse;
-        const float edge_x = glm::length(vec3(lamp.transform[0])) * lamp.size;
-        const float edge_y =
-            glm::length(vec3(lamp.transform[1])) * (two_sizes ? lamp.size_y : lamp.size);
-        if (!(edge_x > 0.0f) || !(edge_y > 0.0f) ||
-            !(glm::length(vec3(lamp.transform[2])) > 0.0f)) {
+        const vec3 u = lamp.size * vec3(lamp.transform[0]);
+        const vec3 v = (two_sizes ? lamp.size_y : lamp.size) * vec3(lamp.transform[1]);
+        const float area = glm::length(cross(u, v));
+        const float volume = glm::determinant(mat3(lamp.transform));
+        if (!(area > 0.0f) || !std::isfinite(area) || !std::isfinite(volume) || volume == 0.0f) {
           warn(lamp.name, "an area light without an area does not shine; it is left out");
           return;
         }

@@ -113,6 +113,9 @@ std::optional<BsdfSample> BsdfView::sample(vec3 from, float u_lobe, vec2 u,
   const vec3 n = facing_normal(*lobe, from_ng);
 
   if (lobe->type == LobeType::Diffuse) {
+    if (!radiance && dot(from, n) <= 0.0f) {
+      return std::nullopt;  // this lobe is lit from behind its normal: its density is zero
+    }
     const Frame frame(radiance ? n : (from_ng < 0.0f ? -ng_ : ng_));
     const vec3 to = frame.to_world(square_to_cosine_hemisphere(u));
     const vec3 wo = radiance ? from : to, wi = radiance ? to : from;

@@ -45,7 +45,10 @@ def write(
     Raises IoError, which names the file; ValueError for pixels of another shape.
     """
     require()
-    _exr.write(os.fsencode(path), pixels, dict(metadata or {}))
+    entries = dict(metadata or {})
+    if not all(isinstance(text, str) for entry in entries.items() for text in entry):
+        raise TypeError("metadata must map strings to strings")
+    _exr.write(os.fsencode(path), np.asarray(pixels, dtype=np.float32), entries)
 
 
 def read(path: str | os.PathLike[str]) -> tuple[npt.NDArray[np.float32], dict[str, str]]:
