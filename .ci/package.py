@@ -85,6 +85,8 @@ def build_wheel() -> Path:
     }
     shutil.rmtree(WORK, ignore_errors=True)
     settings = [f"--config-settings=cmake.define.{k}={v}" for k, v in defines.items()]
+    # A build folder of its own: `pip install .` has other settings in build/wheel.
+    settings.append("--config-settings=build-dir=build/wheel-blender")
     pip = (sys.executable, "-m", "pip", "wheel", "--quiet", "--disable-pip-version-check")
     run("nice", *pip, "--no-deps", "--no-build-isolation", *settings, "-w", WORK, ROOT)
     (wheel,) = WORK.glob("*.whl")

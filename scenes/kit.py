@@ -304,7 +304,9 @@ def area_light(
     light.color = color
     light.spread = math.radians(spread)
     item = bpy.data.objects.new(name, light)
-    item.matrix_world = aim(eye, target)
+    # Rounded angles, because Blender's versions take a matrix apart with other last digits.
+    item.location = eye
+    item.rotation_euler = [round(angle, 4) for angle in aim(eye, target).to_euler()]
     item.visible_camera = seen
     scene.collection.objects.link(item)
     return item

@@ -66,7 +66,7 @@ class GraphReader {
       } else if (py::isinstance<py::str>(value)) {
         result.properties[name] = value.cast<std::string>();
       } else if (is_number(value)) {
-        result.properties[name] = value.cast<float>();
+        result.properties[name] = number(value);
       }
     }
     return result;
@@ -105,7 +105,7 @@ class GraphReader {
       return value.cast<std::string>();
     }
     if (is_number(value)) {
-      return value.cast<float>();
+      return number(value);
     }
     if (py::isinstance<py::sequence>(value) || py::isinstance<py::array>(value)) {
       std::vector<float> v;
@@ -113,7 +113,7 @@ class GraphReader {
         if (!is_number(component)) {
           fail("a vector must hold numbers");
         }
-        v.push_back(component.cast<float>());
+        v.push_back(number(component));
       }
       if (v.size() == 3) {
         return vec3(v[0], v[1], v[2]);
@@ -126,8 +126,19 @@ class GraphReader {
     fail("must be None, a number, a string, 3 or 4 numbers, or a link");
   }
 
+  // Python's numbers and NumPy's scalars.
   static bool is_number(const py::handle& value) {
-    return PyFloat_Check(value.ptr()) || PyLong_Check(value.ptr());
+    return PyNumber_Check(value.ptr()) && !PySequence_Check(value.ptr()) &&
+           !PyComplex_Check(value.ptr());
+  }
+
+  float number(const py::handle& value) const {
+    const double result = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred()) {
+      PyErr_Clear();
+      fail("a number is out of range");
+    }
+    return static_cast<float>(result);
   }
 
   std::string key_, path_;

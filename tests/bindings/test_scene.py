@@ -130,6 +130,7 @@ def test_wrong_words(builder):
         ({"nodes": [{"name": "A"}]}, "nodes[0]"),
         ({"nodes": [], "surface": {"link": ["A"]}}, "surface"),
         (shader("BSDF_DIFFUSE", Color=[1, 2]), "nodes[Shader].inputs[Color]"),
+        (shader("BSDF_DIFFUSE", Roughness=10**400), "nodes[Shader].inputs[Roughness]"),
         (shader("BSDF_DIFFUSE", Color={"link": 3}), "nodes[Shader].inputs[Color]"),
         (shader("BSDF_DIFFUSE", Color=["a", "b", "c"]), "nodes[Shader].inputs[Color]"),
     ],
@@ -137,6 +138,14 @@ def test_wrong_words(builder):
 def test_wrong_graphs(builder, graph, path):
     error = error_of(builder, "set_material", "m", name="Paint", graph=graph)
     assert (error.key, error.path) == ("m", path)
+
+
+def test_numbers_of_numpy(builder):
+    expected = render(builder.commit()).snapshot()
+    color = np.array([0.8, 0.5, 0.2, 1], dtype=np.float32)
+    graph = shader("BSDF_DIFFUSE", Color=color, Roughness=np.float32(0))
+    builder.set_material("m", name="Paint", graph=graph)
+    assert np.array_equal(render(builder.commit()).snapshot(), expected)
 
 
 def test_unsupported_is_named_not_fatal(builder):

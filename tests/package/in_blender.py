@@ -36,22 +36,31 @@ def render(engine: str, name: str, file_format: str = "OPEN_EXR") -> dict:
     }
 
 
-from scenes import hero  # noqa: E402  (the test puts it there)
+from scenes import diffuse_box, glass_box, hero  # noqa: E402  (the test puts them there)
 
 scene = bpy.context.scene
-hero.build(scene)
-scene.render.resolution_x, scene.render.resolution_y = WIDTH, HEIGHT
-scene.render.resolution_percentage = 100
-scene.janus.samples = SAMPLES
-scene.cycles.samples = SAMPLES
-scene.cycles.device = "CPU"
-scene.render.use_stamp = False
 
+
+def build(module) -> None:
+    module.build(scene)
+    scene.render.resolution_x, scene.render.resolution_y = WIDTH, HEIGHT
+    scene.render.resolution_percentage = 100
+    scene.janus.samples = SAMPLES
+    scene.cycles.samples = SAMPLES
+    scene.cycles.device = "CPU"
+    scene.render.use_stamp = False
+
+
+build(hero)
 result = {
     "janus": render("JANUS", "janus.exr"),
     "cycles": render("CYCLES", "cycles.exr"),
     "janus_again": render("JANUS", "again.exr"),
 }
+build(glass_box)
+result["glass_box"] = render("JANUS", "glass_box.exr")
+build(diffuse_box)
+result["diffuse_box"] = render("JANUS", "diffuse_box.exr")
 
 import janus_core  # noqa: E402  (there only because the extension is installed)
 
