@@ -9,6 +9,13 @@
 
 namespace janus {
 
+// Sine and cosine rounded from double precision: C libraries differ in the last digit of the single
+// precision functions, and a picture should not depend on the machine's.
+inline vec2 cos_sin(float angle) {
+  const double a = angle;
+  return vec2(static_cast<float>(std::cos(a)), static_cast<float>(std::sin(a)));
+}
+
 // Uniform on the unit disk, density 1/pi (Shirley & Chiu 1997: keeps stratification).
 inline vec2 square_to_disk(vec2 u) {
   const vec2 c = 2.0f * u - 1.0f;
@@ -23,7 +30,7 @@ inline vec2 square_to_disk(vec2 u) {
     r = c.y;
     phi = 0.5f * kPi - 0.25f * kPi * (c.x / c.y);
   }
-  return r * vec2(std::cos(phi), std::sin(phi));
+  return r * cos_sin(phi);
 }
 
 // Cosine-weighted on the hemisphere around +z, density cos(theta)/pi per solid angle.
@@ -44,7 +51,7 @@ inline vec3 square_to_sphere(vec2 u) {
   const float z = 1.0f - 2.0f * u.x;
   const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
   const float phi = 2.0f * kPi * u.y;
-  return vec3(r * std::cos(phi), r * std::sin(phi), z);
+  return vec3(r * cos_sin(phi), z);
 }
 
 // Uniform on the cone with 1 - cos(theta_max) = `one_minus_cos` around +z, density
@@ -53,7 +60,7 @@ inline vec3 square_to_cone(vec2 u, float one_minus_cos) {
   const float h = u.x * one_minus_cos;  // 1 - cos(theta)
   const float r = std::sqrt(std::max(0.0f, h * (2.0f - h)));
   const float phi = 2.0f * kPi * u.y;
-  return vec3(r * std::cos(phi), r * std::sin(phi), 1.0f - h);
+  return vec3(r * cos_sin(phi), 1.0f - h);
 }
 
 // Uniform barycentric coordinates (b1, b2) of a triangle, density 1/area.
