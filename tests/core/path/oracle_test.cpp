@@ -103,8 +103,8 @@ WeightCheck check(const Scene& scene, Heuristic heuristic, const SampleCounts& c
   return sum;
 }
 
-// The recursion works in single precision: at grazing angles, a few joins in a thousand lose
-// digits. A factor of 1.001 in any one density would show in the mean.
+// The recursion works in single precision: at grazing angles, one join in a thousand may lose
+// digits.
 void expect_exact(const WeightCheck& result) {
   EXPECT_LT(result.sum_error, 3e-6 * static_cast<double>(result.paths));
   EXPECT_LT(result.inaccurate, 1 + result.paths / 1000);
