@@ -57,7 +57,6 @@ class RenderSession {
 
  private:
   void run();
-  double elapsed() const;
   void end(Progress::State state, std::exception_ptr error);
 
   std::shared_ptr<const Scene> scene_;
