@@ -17,16 +17,17 @@ class PerspectiveCamera final : public Camera {
         near_(desc.clip_start),
         far_(desc.clip_end) {}
 
-  CameraRay sample_ray(vec2 raster) const override {
+  CameraRay sample_ray(vec2 raster, vec2 /*u_lens*/) const override {
     const vec3 local(origin_ + raster * pixel_, -1.0f);
     const float length = glm::length(local);
     const vec3 direction = rotation_ * (local / length);
     // Clipping planes are perpendicular to the view axis, as in Blender.
-    return {Ray{center_ + near_ * length * direction, direction, (far_ - near_) * length}, center_,
-            pdf_solid(1.0f / length)};
+    return {Ray{center_ + near_ * length * direction, direction, (far_ - near_) * length},
+            center_,
+            {pdf_solid(1.0f / length), true}};
   }
 
-  std::optional<CameraConnection> connect(vec3 p, float margin) const override {
+  std::optional<CameraConnection> connect(vec3 p, vec2 /*u_lens*/, float margin) const override {
     const vec3 to_camera = center_ - p;
     const vec3 local = -(glm::transpose(rotation_) * to_camera);
     const float depth = -local.z;
@@ -42,7 +43,8 @@ class PerspectiveCamera final : public Camera {
     const float distance = std::sqrt(d2);
     const vec3 wo = to_camera / distance;
     const float cos_axis = depth / distance;
-    return CameraConnection{raster, wo, center_ - (near_ / cos_axis) * wo, d2, pdf_solid(cos_axis)};
+    return CameraConnection{
+        raster, wo, center_ - (near_ / cos_axis) * wo, d2, {pdf_solid(cos_axis), true}};
   }
 
  private:
@@ -59,7 +61,7 @@ class PerspectiveCamera final : public Camera {
 
 }  // namespace
 
-std::unique_ptr<Camera> make_perspective_camera(const CameraDesc& desc, int width, int height) {
+std::unique_ptr<Camera> make_camera(const CameraDesc& desc, int width, int height) {
   return std::make_unique<PerspectiveCamera>(desc, width, height);
 }
 

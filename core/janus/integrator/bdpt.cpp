@@ -124,8 +124,8 @@ class Bdpt final : public PassIntegrator {
         Sampler sampler(settings_.seed, Stream::Light, 0,
                         static_cast<uint64_t>(pass) * light_paths_ + i);
         trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, counters,
-                            [&](const PathVertex& v, Sampler&) {
-                              splat(v, margin, splats[block], counters);
+                            [&](const PathVertex& v, Sampler& walk) {
+                              splat(v, walk, margin, splats[block], counters);
                               if (connect) {
                                 cache(v, caches[block]);
                               }
@@ -153,8 +153,9 @@ class Bdpt final : public PassIntegrator {
     }
   }
 
-  void splat(const PathVertex& v, float margin, std::vector<Splat>& out, Counters& counters) const {
-    const auto s = connect_to_camera(v, context_.camera, margin, mis_);
+  void splat(const PathVertex& v, Sampler& sampler, float margin, std::vector<Splat>& out,
+             Counters& counters) const {
+    const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_);
     if (!s) {
       return;
     }

@@ -34,8 +34,8 @@ class LightTracer final : public PassIntegrator {
       for (size_t i = block * kLightBlock; i < end; ++i) {
         Sampler sampler(settings_.seed, Stream::Light, 0, static_cast<uint64_t>(pass) * count + i);
         trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, counters,
-                            [&](const PathVertex& v, Sampler&) {
-                              splat(v, margin, count, splats[block], counters);
+                            [&](const PathVertex& v, Sampler& walk) {
+                              splat(v, walk, margin, count, splats[block], counters);
                             });
       }
       add(counters);
@@ -43,9 +43,9 @@ class LightTracer final : public PassIntegrator {
     context_.film.add_splats(splats, context_.pool);
   }
 
-  void splat(const PathVertex& v, float margin, size_t count, std::vector<Splat>& out,
-             Counters& counters) const {
-    const auto s = connect_to_camera(v, context_.camera, margin, mis_);
+  void splat(const PathVertex& v, Sampler& sampler, float margin, size_t count,
+             std::vector<Splat>& out, Counters& counters) const {
+    const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_);
     if (!s || !usable(s->connection.value, counters)) {
       return;
     }

@@ -39,8 +39,8 @@ class PathTracer final : public PassIntegrator {
   Rgb radiance(vec2 raster, Sampler& sampler, Counters& counters, bool& seen) const {
     const Scene& scene = context_.scene;
     ++counters.camera_paths;
-    Ray ray = context_.camera.sample_ray(raster).ray;
-    vec3 previous = ray.origin;
+    Ray ray = context_.camera.sample_ray(raster, sampler.next_2d()).ray;
+    Receiver previous{ray.origin, ray.direction, true};
     Rgb beta(1.0f), sum(0.0f);
     float pdf_solid = 0.0f;
     bool delta = true;
@@ -55,7 +55,8 @@ class PathTracer final : public PassIntegrator {
           return;
         }
         const float pdf_nee =
-            scene.light_sampler.pmf_illumination(previous, index) * found.pdf_illumination;
+            scene.light_sampler.pmf_illumination(previous, index, found.primitive) *
+            found.pdf_illumination;
         sum += beta * found.radiance * (delta ? 1.0f : weight(pdf_solid, pdf_nee));
       };
       for (const size_t lamp : scene.lamps) {
@@ -73,7 +74,7 @@ class PathTracer final : public PassIntegrator {
       seen = true;
       const ShadingResult shading = scene.shade(*hit);
       if (size_t index; const MeshLight* light = scene.mesh_light(*hit, index)) {
-        add_light(index, light->at(*hit, previous, ray.direction, shading.emission));
+        add_light(index, light->at(*hit, previous.p, ray.direction, shading.emission));
       }
       if (edges + 1 > settings_.walk.max_edges) {
         return sum;
@@ -101,7 +102,7 @@ class PathTracer final : public PassIntegrator {
       beta /= q;
       pdf_solid = sample->pdf_solid;
       delta = sample->delta;
-      previous = hit->p;
+      previous = receiver(*hit, bsdf, wo);
       ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, sample->direction), sample->direction};
     }
   }
@@ -109,11 +110,12 @@ class PathTracer final : public PassIntegrator {
   Rgb direct(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, Sampler& sampler,
              Counters& counters) const {
     const Scene& scene = context_.scene;
-    float u_light = sampler.next_1d();
+    const float u_light = sampler.next_1d();
     const vec2 u = sampler.next_2d();
-    const size_t index = scene.light_sampler.sample_illumination(hit.p, u_light);
-    const Light& light = *scene.lights[index];
-    const auto sample = light.sample_illumination(hit.p, u);
+    const LightChoice choice =
+        scene.light_sampler.sample_illumination(receiver(hit, bsdf, wo), u_light);
+    const Light& light = *scene.lights[choice.light];
+    const auto sample = light.sample_illumination(hit.p, choice.primitive, u);
     if (!sample) {
       return Rgb(0.0f);
     }
@@ -125,7 +127,7 @@ class PathTracer final : public PassIntegrator {
     if (scene.occluded(offset_origin(hit.p, hit.ng, hit.offset, sample->wi), sample->target)) {
       return Rgb(0.0f);
     }
-    const float pdf_nee = scene.light_sampler.pmf_illumination(hit.p, index) * sample->pdf_solid;
+    const float pdf_nee = choice.pmf * sample->pdf_solid;
     const float pdf_hit =
         light.hittable() ? bsdf.pdf_solid(wo, sample->wi, TransportMode::Radiance) : 0.0f;
     return f * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee);

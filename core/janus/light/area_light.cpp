@@ -51,7 +51,8 @@ class AreaLight final : public Light {
     return EmissionSample{point(u_position), direction, radiance / density.value, density};
   }
 
-  std::optional<IlluminationSample> sample_illumination(vec3 receiver, vec2 u) const override {
+  std::optional<IlluminationSample> sample_illumination(vec3 receiver, uint32_t /*primitive*/,
+                                                        vec2 u) const override {
     const vec3 target = point(u);
     const vec3 d = target - receiver;
     const float d2 = length2(d);

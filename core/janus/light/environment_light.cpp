@@ -22,6 +22,7 @@ class ConstantEnvironment final : public Light {
 
   bool hittable() const override { return true; }
   bool infinite() const override { return true; }
+  std::vector<Emitter> emitters() const override { return {Emitter{}}; }
 
   // A direction, then a point on the disk that covers the scene's bounding sphere.
   std::optional<EmissionSample> sample_emission(vec2 u_position, vec2 u_direction) const override {
@@ -32,7 +33,7 @@ class ConstantEnvironment final : public Light {
     return EmissionSample{origin, direction, radiance_ / ray_density().value, ray_density()};
   }
 
-  std::optional<IlluminationSample> sample_illumination(vec3 /*receiver*/,
+  std::optional<IlluminationSample> sample_illumination(vec3 /*receiver*/, uint32_t /*primitive*/,
                                                         vec2 /*u*/) const override {
     return std::nullopt;
   }

@@ -12,6 +12,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "janus/geometry/interaction.h"
 #include "janus/math/vec.h"
@@ -37,10 +38,11 @@ struct EmissionSample {
   vec3 direction;  // unit
   Rgb weight;      // radiance / ray density (flux)
   RayDensity density;
-  // Emitting surfaces: the normal on the side that emits, and the density per area with which
-  // sample_illumination draws this point.
+  // Emitting surfaces: the normal on the side that emits, the density per area with which
+  // sample_illumination draws this point, and the primitive that it lies on.
   vec3 normal = vec3(0.0f);
   float pdf_area = 0.0f;
+  uint32_t primitive = 0;
 };
 
 // Next event estimation: the light as seen from a receiver.
@@ -60,6 +62,12 @@ struct LightHit {
   float pdf_illumination;  // pdf_solid of sample_illumination at the ray's origin
   RayDensity emission;
   float distance2;
+  uint32_t primitive = 0;
+};
+
+// What light selection knows of an emitter: a lamp, or one triangle of a mesh light.
+struct Emitter {
+  float power = 0.0f;  // watts, luminance; 0: never chosen
 };
 
 class Light {
@@ -83,9 +91,17 @@ class Light {
 
   virtual std::optional<EmissionSample> sample_emission(vec2 u_position,
                                                         vec2 u_direction) const = 0;
-  virtual std::optional<IlluminationSample> sample_illumination(vec3 receiver, vec2 u) const = 0;
 
-  // pdf_solid with which sample_illumination at `receiver` draws the endpoint of an emitted ray.
+  // The emitters that next event estimation chooses from: one for a lamp, one per primitive for a
+  // mesh light.
+  virtual std::vector<Emitter> emitters() const { return {Emitter{power()}}; }
+
+  // A point of emitter `primitive` for `receiver`.
+  virtual std::optional<IlluminationSample> sample_illumination(vec3 receiver, uint32_t primitive,
+                                                                vec2 u) const = 0;
+
+  // pdf_solid with which sample_illumination at `receiver`, given the emitter, draws the endpoint
+  // of an emitted ray.
   virtual float pdf_illumination(const EmissionSample& sample, vec3 endpoint,
                                  vec3 receiver) const = 0;
 

@@ -7,16 +7,12 @@ namespace {
 
 // Power is a poor guide where a weak lamp is close or a strong one hidden: a share of the choices
 // is uniform.
-DiscreteDistribution by_power(const std::vector<std::unique_ptr<Light>>& lights, float uniform,
-                              bool finite_only) {
-  std::vector<float> weights;
+DiscreteDistribution by_power(std::vector<float> weights, float uniform) {
   float total = 0.0f;
   int count = 0;
-  for (const auto& light : lights) {
-    const bool wanted = light->power() > 0.0f && !(finite_only && light->infinite());
-    weights.push_back(wanted ? light->power() : 0.0f);
-    total += weights.back();
-    count += wanted ? 1 : 0;
+  for (const float w : weights) {
+    total += w;
+    count += w > 0.0f ? 1 : 0;
   }
   for (float& w : weights) {
     if (w > 0.0f) {
@@ -28,7 +24,19 @@ DiscreteDistribution by_power(const std::vector<std::unique_ptr<Light>>& lights,
 
 }  // namespace
 
-LightSampler::LightSampler(const std::vector<std::unique_ptr<Light>>& lights)
-    : emission_(by_power(lights, 0.1f, false)), illumination_(by_power(lights, 0.5f, true)) {}
+LightSampler::LightSampler(const std::vector<std::unique_ptr<Light>>& lights) {
+  std::vector<float> emission, illumination;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    emission.push_back(lights[i]->power());
+    first_.push_back(emitters_.size());
+    uint32_t primitive = 0;
+    for (const Emitter& emitter : lights[i]->emitters()) {
+      emitters_.push_back({static_cast<uint32_t>(i), primitive++});
+      illumination.push_back(emitter.power);
+    }
+  }
+  emission_ = by_power(std::move(emission), 0.1f);
+  illumination_ = by_power(std::move(illumination), 0.5f);
+}
 
 }  // namespace janus

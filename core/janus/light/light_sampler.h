@@ -9,6 +9,21 @@
 
 namespace janus {
 
+// A surface point that wants light, as the choice of a light may depend on it. Both walks must
+// describe a vertex in the same way: `n` is Ng on the side of the vertex's camera direction, which
+// for a surface that does not transmit is the side of the light, too.
+struct Receiver {
+  vec3 p;
+  vec3 n;
+  bool two_sided;  // can light from behind `n` matter? (transmission)
+};
+
+struct LightChoice {
+  size_t light;
+  uint32_t primitive;
+  float pmf;
+};
+
 // Chooses a light. Emission and illumination have probabilities of their own; every weight uses
 // the one that belongs to its technique.
 class LightSampler {
@@ -23,16 +38,23 @@ class LightSampler {
   size_t sample_emission(float& u) const { return emission_.sample(u, &u); }
   float pmf_emission(size_t light) const { return emission_.pmf(light); }
 
-  // For a receiver (the choice does not depend on where it is). Only if illuminates().
-  size_t sample_illumination(vec3 /*receiver*/, float& u) const {
-    return illumination_.sample(u, &u);
+  // An emitter for a receiver. Only if illuminates().
+  LightChoice sample_illumination(const Receiver& /*receiver*/, float u) const {
+    const size_t i = illumination_.sample(u);
+    return {emitters_[i].light, emitters_[i].primitive, illumination_.pmf(i)};
   }
-  float pmf_illumination(vec3 /*receiver*/, size_t light) const {
-    return illuminates() ? illumination_.pmf(light) : 0.0f;
+  // The probability of that choice.
+  float pmf_illumination(const Receiver& /*receiver*/, size_t light, uint32_t primitive) const {
+    return illuminates() ? illumination_.pmf(first_[light] + primitive) : 0.0f;
   }
 
  private:
+  struct EmitterId {
+    uint32_t light, primitive;
+  };
   DiscreteDistribution emission_, illumination_;
+  std::vector<EmitterId> emitters_;
+  std::vector<size_t> first_;  // by light: its first emitter
 };
 
 }  // namespace janus

@@ -24,14 +24,21 @@ MeshLight::MeshLight(const Accel& accel, const Mesh& mesh, const Instance& insta
   triangles_ = DiscreteDistribution(weights);
   pdf_area_.resize(areas.size(), 0.0f);
   for (size_t i = 0; i < areas.size() && !triangles_.empty(); ++i) {
-    pdf_area_[i] = weights[i] > 0.0f ? triangles_.pmf(i) / areas[i] : 0.0f;
+    pdf_area_[i] = weights[i] > 0.0f ? 1.0f / areas[i] : 0.0f;
   }
 }
 
-MeshLight::Point MeshLight::sample_point(vec2 u) const {
-  const uint32_t triangle = static_cast<uint32_t>(triangles_.sample(u.x, &u.x));
-  return {accel_.surface_point(instance_, triangle, square_to_triangle(u)), triangle,
-          pdf_area_[triangle]};
+MeshLight::Point MeshLight::point(uint32_t triangle, vec2 u) const {
+  return {accel_.surface_point(instance_, triangle, square_to_triangle(u)), pdf_area_[triangle]};
+}
+
+std::vector<Emitter> MeshLight::emitters() const {
+  std::vector<Emitter> result;
+  for (size_t i = 0; i < pdf_area_.size(); ++i) {
+    const bool shines = pdf_area_[i] > 0.0f;
+    result.push_back({shines ? 2.0f * kPi * luminance(radiance_[i]) / pdf_area_[i] : 0.0f});
+  }
+  return result;
 }
 
 std::optional<EmissionSample> MeshLight::sample_emission(vec2 u_position, vec2 u_direction) const {
@@ -41,24 +48,24 @@ std::optional<EmissionSample> MeshLight::sample_emission(vec2 u_position, vec2 u
   const bool front = u_direction.x < 0.5f;
   u_direction.x =
       std::min(front ? 2.0f * u_direction.x : 2.0f * u_direction.x - 1.0f, 0x1.fffffep-1f);
-  const Point point = sample_point(u_position);
+  const auto triangle = static_cast<uint32_t>(triangles_.sample(u_position.x, &u_position.x));
+  const Point point = this->point(triangle, u_position);
   const vec3 n = front ? point.surface.ng : -point.surface.ng;
   const vec3 direction = Frame(n).to_world(square_to_cosine_hemisphere(u_direction));
-  const RayDensity density = ray_density(point.pdf_area);
+  const RayDensity density = ray_density(triangle);
   return EmissionSample{
       offset_origin(point.surface.p, point.surface.ng, point.surface.offset, direction),
       direction,
-      radiance_[point.triangle] / density.value,
+      radiance_[triangle] / density.value,
       density,
       n,
-      point.pdf_area};
+      point.pdf_area,
+      triangle};
 }
 
-std::optional<IlluminationSample> MeshLight::sample_illumination(vec3 receiver, vec2 u) const {
-  if (triangles_.empty()) {
-    return std::nullopt;
-  }
-  const Point point = sample_point(u);
+std::optional<IlluminationSample> MeshLight::sample_illumination(vec3 receiver, uint32_t primitive,
+                                                                 vec2 u) const {
+  const Point point = this->point(primitive, u);
   const vec3 target = offset_origin(point.surface.p, point.surface.ng, point.surface.offset,
                                     receiver - point.surface.p);
   const vec3 d = target - receiver;
@@ -74,9 +81,9 @@ std::optional<IlluminationSample> MeshLight::sample_illumination(vec3 receiver, 
   return IlluminationSample{wi,
                             target,
                             d2,
-                            radiance_[point.triangle],
+                            radiance_[primitive],
                             point.pdf_area * d2 / cos_light,
-                            ray_density(point.pdf_area)};
+                            ray_density(primitive)};
 }
 
 float MeshLight::pdf_illumination(const EmissionSample& sample, vec3 endpoint,
@@ -93,7 +100,7 @@ LightHit MeshLight::at(const SurfaceInteraction& hit, vec3 origin, vec3 directio
   const float d2 = length2(hit.p - origin);
   const float cos_light = std::abs(dot(direction, hit.ng));
   const float pdf = cos_light > 0.0f ? pdf_area * d2 / cos_light : 0.0f;
-  return {std::sqrt(d2), radiance, pdf, ray_density(pdf_area), d2};
+  return {std::sqrt(d2), radiance, pdf, ray_density(hit.primitive), d2, hit.primitive};
 }
 
 }  // namespace janus

@@ -17,7 +17,9 @@ class MeshLight final : public Light {
   float power() const override { return power_; }
   bool hittable() const override { return true; }
   std::optional<EmissionSample> sample_emission(vec2 u_position, vec2 u_direction) const override;
-  std::optional<IlluminationSample> sample_illumination(vec3 receiver, vec2 u) const override;
+  std::optional<IlluminationSample> sample_illumination(vec3 receiver, uint32_t primitive,
+                                                        vec2 u) const override;
+  std::vector<Emitter> emitters() const override;
   float pdf_illumination(const EmissionSample& sample, vec3 endpoint, vec3 receiver) const override;
 
   // Mesh lights are surfaces: the walk finds them, and asks at() then.
@@ -27,16 +29,18 @@ class MeshLight final : public Light {
  private:
   struct Point {
     SurfaceInteraction surface;
-    uint32_t triangle;
-    float pdf_area;
+    float pdf_area;  // within the triangle
   };
-  Point sample_point(vec2 u) const;
-  RayDensity ray_density(float pdf_area) const { return {0.5f * kInvPi * pdf_area, false}; }
+  Point point(uint32_t triangle, vec2 u) const;
+  RayDensity ray_density(uint32_t triangle) const {
+    const float pmf = pdf_area_[triangle] > 0.0f ? triangles_.pmf(triangle) : 0.0f;
+    return {0.5f * kInvPi * pmf * pdf_area_[triangle], false};
+  }
 
   const Accel& accel_;
   uint32_t instance_;
   std::vector<Rgb> radiance_;    // per triangle
-  std::vector<float> pdf_area_;  // per triangle: pmf / area, 0 where nothing shines
+  std::vector<float> pdf_area_;  // per triangle: 1 / area, 0 where nothing shines
   DiscreteDistribution triangles_;
   float power_ = 0.0f;
 };

@@ -62,7 +62,8 @@ class PointLight final : public Light {
     return p;
   }
 
-  std::optional<IlluminationSample> sample_illumination(vec3 receiver, vec2 u) const override {
+  std::optional<IlluminationSample> sample_illumination(vec3 receiver, uint32_t /*primitive*/,
+                                                        vec2 u) const override {
     const vec3 axis = receiver - center_;
     const float d2 = length2(axis);
     if (d2 == 0.0f) {

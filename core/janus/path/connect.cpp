@@ -5,24 +5,25 @@ namespace janus {
 
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& v,
                                                 const Mis& mis, Sampler& sampler) {
-  float u_light = sampler.next_1d();
+  const float u_light = sampler.next_1d();
   const vec2 u = sampler.next_2d();
-  const size_t index = scene.light_sampler.sample_illumination(v.hit.p, u_light);
-  const Light& light = *scene.lights[index];
-  const auto sample = light.sample_illumination(v.hit.p, u);
+  const BsdfView bsdf = v.bsdf();
+  const LightChoice choice =
+      scene.light_sampler.sample_illumination(receiver(v.hit, bsdf, v.back), u_light);
+  const Light& light = *scene.lights[choice.light];
+  const auto sample = light.sample_illumination(v.hit.p, choice.primitive, u);
   if (!sample) {
     return std::nullopt;
   }
-  const BsdfView bsdf = v.bsdf();
   const vec3 wo = v.back, wi = sample->wi;
   const Rgb f = bsdf.eval(wo, wi, TransportMode::Radiance);
   if (is_black(f)) {
     return std::nullopt;
   }
-  const float pdf_nee = scene.light_sampler.pmf_illumination(v.hit.p, index) * sample->pdf_solid;
+  const float pdf_nee = choice.pmf * sample->pdf_solid;
   const float pdf_hit = light.hittable() ? bsdf.pdf_solid(wo, wi, TransportMode::Radiance) : 0.0f;
   const float joint =
-      scene.light_sampler.pmf_emission(index) *
+      scene.light_sampler.pmf_emission(choice.light) *
       emission_density(sample->emission, std::abs(dot(wi, v.hit.ng)), sample->distance2);
   const float weight = mis.weight_nee(pdf_nee, pdf_hit, joint, v.mis,
                                       bsdf.pdf_solid(wo, wi, TransportMode::Importance));
@@ -60,9 +61,9 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
                     offset_origin(l.p, l.ng, l.offset, -wi)};
 }
 
-std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera,
+std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera, vec2 u_lens,
                                              float margin, const Mis& mis) {
-  const auto to_camera = camera.connect(v.hit.p, margin);
+  const auto to_camera = camera.connect(v.hit.p, u_lens, margin);
   if (!to_camera) {
     return std::nullopt;
   }
@@ -72,7 +73,7 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
   if (is_black(f)) {
     return std::nullopt;
   }
-  const float importance = to_camera->pdf_solid / to_camera->distance2;
+  const float importance = to_camera->importance();
   const float weight = mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)),
                                         bsdf.pdf_solid(wo, wi, TransportMode::Radiance));
   return CameraSplat{{v.beta * f * importance, weight,

@@ -44,6 +44,6 @@ struct CameraSplat {
   vec2 raster;
 };
 std::optional<CameraSplat> connect_to_camera(const PathVertex& light_vertex, const Camera& camera,
-                                             float margin, const Mis& mis);
+                                             vec2 u_lens, float margin, const Mis& mis);
 
 }  // namespace janus

@@ -131,11 +131,11 @@ void set_light(FullPath& path, const LightEnd& end) {
 
 bool set_camera(FullPath& path, const Camera& camera) {
   const vec3 p = path.interior.back().p;
-  const auto connection = camera.connect(p, kInfinity);
+  const auto connection = camera.connect(p, vec2(0.5f), kInfinity);
   if (!connection) {
     return false;
   }
-  path.pdf_camera_solid = connection->pdf_solid;
+  path.pdf_camera_solid = connection->density.value;
   path.camera_center = p + std::sqrt(connection->distance2) * connection->wo;
   return true;
 }
@@ -167,7 +167,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
                         [&](const PathVertex& v, Sampler&) { light.push_back(v); });
   }
   for (int i = 1; i <= static_cast<int>(light.size()) && counts.splat > 0.0f; ++i) {
-    if (const auto splat = connect_to_camera(light[i - 1], camera, kInfinity, mis)) {
+    if (const auto splat = connect_to_camera(light[i - 1], camera, vec2(0.5f), kInfinity, mis)) {
       FullPath path = join(light, i, {}, 0);
       set_light(path, light[0].light_end);
       compare(path, i + 1, splat->connection.weight);

@@ -56,6 +56,12 @@ struct LightFound {
   Departure previous;  // how z_1 was left
 };
 
+// The vertex as the choice of a light sees it; `side`: a direction on its camera side (or, for a
+// surface that does not transmit, on its light side).
+inline Receiver receiver(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 side) {
+  return {hit.p, dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, bsdf.transmits()};
+}
+
 // Survival probability of a walk. It divides the throughput and appears in no density.
 inline float survival(Rgb throughput, float eta_scale, int bounces) {
   constexpr int kStart = 3;
@@ -113,7 +119,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     return;
   }
   const float pmf = scene.light_sampler.pmf_emission(index);
-  Ray ray{emission->origin, emission->direction};
+  const Ray ray{emission->origin, emission->direction};
   ++counters.light_rays;
   auto hit = scene.intersect(ray);
   if (!hit) {
@@ -133,15 +139,16 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   if (!(joint > 0.0f)) {
     return;
   }
-  const float pdf_nee = scene.light_sampler.pmf_illumination(hit->p, index) *
+  v.back = -ray.direction;
+  v.shading = scene.shade(v.hit);
+  const float pdf_nee = scene.light_sampler.pmf_illumination(receiver(v.hit, v.bsdf(), v.back),
+                                                             index, emission->primitive) *
                         light.pdf_illumination(*emission, *endpoint, hit->p);
   v.light_end = {joint, pdf_nee, light.hittable(), -ray.direction};
   v.mis = mis.begin_light(joint, pdf_nee, light.hittable());
   const float start = max_component(v.beta);
   float eta_scale = 1.0f;
   for (;;) {
-    v.shading = scene.shade(v.hit);
-    v.back = -ray.direction;
     on_vertex(v, sampler);
     if (v.edges + 2 > settings.max_edges) {
       return;
@@ -164,9 +171,10 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     }
     v.mis = mis.advance(step->behind, step->sample.delta, step->cos_previous / d2, pdf_area);
     v.hit = *hit;
+    v.back = -step->ray.direction;
+    v.shading = scene.shade(v.hit);
     v.beta = step->beta;
     v.previous = {step->sample.delta, step->sample.pdf_solid, step->sample.pdf_reverse};
-    ray = step->ray;
     ++v.edges;
   }
 }
@@ -179,10 +187,10 @@ bool trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster,
                           const WalkSettings& settings, Sampler& sampler, Counters& counters,
                           OnLight&& on_light, OnVertex&& on_vertex) {
   ++counters.camera_paths;
-  const CameraRay start = camera.sample_ray(raster);
+  const CameraRay start = camera.sample_ray(raster, sampler.next_2d());
   Ray ray = start.ray;
-  vec3 previous = start.center;
-  Departure left{false, start.pdf_solid, 0.0f};
+  Receiver previous{start.lens, ray.direction, true};
+  Departure left{false, start.density.value, 0.0f};
   float cos_previous = 0.0f, eta_scale = 1.0f;
   bool seen = false;
   ClassSums behind;
@@ -203,7 +211,8 @@ bool trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster,
       const float joint = scene.light_sampler.pmf_emission(index) *
                           emission_density(light_hit.emission, cos_previous, light_hit.distance2);
       const float pdf_nee =
-          scene.light_sampler.pmf_illumination(previous, index) * light_hit.pdf_illumination;
+          scene.light_sampler.pmf_illumination(previous, index, light_hit.primitive) *
+          light_hit.pdf_illumination;
       on_light(LightFound{index,
                           light_hit,
                           v.beta,
@@ -230,11 +239,13 @@ bool trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster,
     if (!is_black(v.shading.emission)) {
       size_t index;
       if (const MeshLight* light = scene.mesh_light(v.hit, index)) {
-        found(index, light->at(v.hit, previous, ray.direction, v.shading.emission));
+        found(index, light->at(v.hit, previous.p, ray.direction, v.shading.emission));
       }
     }
-    const float d2 = length2(v.hit.p - previous);
-    const float pdf_area = left.pdf_solid * std::abs(dot(ray.direction, v.hit.ng)) / d2;
+    const float d2 = length2(v.hit.p - previous.p);
+    const float cos_1 = std::abs(dot(ray.direction, v.hit.ng));
+    const float pdf_area =
+        v.edges == 1 ? camera_density(start.density, cos_1, d2) : left.pdf_solid * cos_1 / d2;
     if (v.edges + 1 > settings.max_edges || !(pdf_area > 0.0f) || !std::isfinite(pdf_area)) {
       return seen;
     }
@@ -248,7 +259,7 @@ bool trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster,
     if (!step) {
       return seen;
     }
-    previous = v.hit.p;
+    previous = receiver(v.hit, v.bsdf(), v.back);
     v.beta = step->beta;
     ray = step->ray;
     left = {step->sample.delta, step->sample.pdf_solid, step->sample.pdf_reverse};

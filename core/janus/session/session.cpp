@@ -62,7 +62,7 @@ void RenderSession::start() {
 
 void RenderSession::run() {
   ThreadPool pool(settings_.threads);
-  const auto camera = make_perspective_camera(scene_->camera, settings_.width, settings_.height);
+  const auto camera = make_camera(scene_->camera, settings_.width, settings_.height);
   IntegratorSettings integrator_settings;
   // Cycles counts bounces between the first surface and the light: 0 leaves camera, surface, light.
   integrator_settings.walk.max_edges = settings_.max_bounces + 2;

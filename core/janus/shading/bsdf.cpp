@@ -58,6 +58,15 @@ bool BsdfView::connectible() const {
   return false;
 }
 
+bool BsdfView::transmits() const {
+  for (const Lobe& lobe : lobes_) {
+    if (lobe.type == LobeType::Dielectric) {
+      return true;
+    }
+  }
+  return false;
+}
+
 Rgb BsdfView::eval_cos(vec3 wo, vec3 wi) const {
   const float wo_ng = dot(wo, ng_), wi_ng = dot(wi, ng_);
   Rgb sum(0.0f);

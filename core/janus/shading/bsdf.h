@@ -39,6 +39,9 @@ class BsdfView {
   // True if some lobe is not a delta: the vertex can be joined to another one.
   bool connectible() const;
 
+  // True if some lobe scatters to the other side of Ng.
+  bool transmits() const;
+
   // sum of f_l |wi . N_l| over the lobes that are not deltas (Cycles' meaning of a closure).
   Rgb eval_cos(vec3 wo, vec3 wi) const;
 

@@ -85,7 +85,7 @@ const SampleCounts kAllOne{1, 1, 1, 1};
 WeightCheck check(const Scene& scene, Heuristic heuristic, const SampleCounts& counts,
                   int paths = 4000, int max_edges = 8) {
   constexpr int kSide = 32;
-  const auto camera = make_perspective_camera(scene.camera, kSide, kSide);
+  const auto camera = make_camera(scene.camera, kSide, kSide);
   Random random(7);
   WeightCheck sum;
   for (int i = 0; i < samples(paths); ++i) {
