@@ -53,6 +53,9 @@ class Film {
 
   int passes() const { return passes_; }
 
+  // The mean of a pixel over the passes (at least one).
+  Rgb mean(size_t index) const { return Rgb(sum_[index] / static_cast<double>(passes_)); }
+
   // The mean over the passes: RGBA, premultiplied; black before the first pass.
   Image develop() const;
 

@@ -53,6 +53,14 @@ Filter::Filter(FilterType type, float width) {
     cdf_.push_back(static_cast<float>(sum));
   }
   cdf_.back() = 1.0f;
+  // The first cell that a number in each equal part of [0, 1) can mean.
+  guide_.resize(density_.size());
+  for (size_t k = 0, i = 0; k < guide_.size(); ++k) {
+    while (i + 1 < density_.size() && cdf_[i + 1] <= static_cast<float>(k) / guide_.size()) {
+      ++i;
+    }
+    guide_[k] = static_cast<uint32_t>(i);
+  }
 }
 
 float Filter::density(float x) const {
@@ -64,8 +72,10 @@ float Filter::density(float x) const {
 }
 
 float Filter::sample_1d(float u) const {
-  const auto it = std::upper_bound(cdf_.begin(), cdf_.end(), u);
-  const size_t i = std::clamp<size_t>(it - cdf_.begin(), 1, density_.size()) - 1;
+  size_t i = guide_[static_cast<size_t>(u * guide_.size())];
+  while (i + 1 < density_.size() && cdf_[i + 1] <= u) {
+    ++i;
+  }
   const float width = cdf_[i + 1] - cdf_[i];
   const float within = width > 0.0f ? (u - cdf_[i]) / width : 0.5f;
   return (i + within) / density_.size() * 2.0f * radius_ - radius_;

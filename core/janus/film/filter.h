@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "janus/math/vec.h"
@@ -27,7 +28,8 @@ class Filter {
   // exactly, so camera and light images have the same expectation.
   float radius_;
   std::vector<float> density_;
-  std::vector<float> cdf_;  // density_.size() + 1 entries from 0 to 1
+  std::vector<float> cdf_;       // density_.size() + 1 entries from 0 to 1
+  std::vector<uint32_t> guide_;  // where in cdf_ to look for a number
 };
 
 }  // namespace janus

@@ -8,6 +8,7 @@
 // To bound the cache, a pass runs in waves: a range of its light paths with a cache of their own,
 // then an interleaved subset of its pixels.
 #include "janus/integrator/pass.h"
+#include "janus/integrator/roulette_map.h"
 #include "janus/path/connect.h"
 #include "janus/path/oracle.h"
 
@@ -24,15 +25,8 @@ struct VertexCache {
   std::vector<Lobe> lobes;
 
   void add(const PathVertex& v) {
-    LightVertex out{v.hit.p,
-                    v.hit.ng,
-                    v.hit.offset,
-                    v.back,
-                    v.beta,
-                    v.mis,
-                    static_cast<uint32_t>(lobes.size()),
-                    0,
-                    static_cast<uint16_t>(v.edges)};
+    LightVertex out(v);
+    out.first_lobe = static_cast<uint32_t>(lobes.size());
     const BsdfView bsdf = v.bsdf();
     for (const Lobe& lobe : bsdf.lobes()) {
       if (!is_delta(lobe)) {  // view-free and connectible: the rest is never asked for
@@ -60,6 +54,9 @@ class Bdpt final : public PassIntegrator {
   }
 
   void render_pass(int pass) override {
+    if (settings_.contribution_roulette && !settings_.only) {
+      roulette_.update(context_.film, pass);
+    }
     for (size_t wave = 0; wave < waves_; ++wave) {
       trace_lights(pass, wave);
       trace_camera(pass, wave);
@@ -153,19 +150,42 @@ class Bdpt final : public PassIntegrator {
     }
   }
 
+  // The value of a join whose technique has `s` light vertices and `t` camera vertices.
+  Rgb weighted(const Connection& c, int s, int t) const {
+    if (settings_.only) {
+      return *settings_.only == Technique{s, t} ? c.value : Rgb(0.0f);
+    }
+    return c.value * c.weight;
+  }
+
+  // What arrives of `value` over the shadow ray of `c`; `samples` and `rays` are counted.
+  Rgb arriving(Rgb value, const Connection& c, const Roulette& roulette, Sampler& sampler,
+               uint64_t& samples, uint64_t& rays) const {
+    if (is_black(value)) {
+      return value;
+    }
+    ++samples;
+    float scale = 1.0f;
+    const int crossings = settings_.walk.max_crossings - c.crossings;
+    if (crossings < 0 || !roulette.survives(max_component(value), sampler, scale)) {
+      return Rgb(0.0f);
+    }
+    ++rays;
+    return value * scale * context_.scene.transmittance(c.from, c.to, crossings);
+  }
+
   void splat(const PathVertex& v, Sampler& sampler, float margin, std::vector<Splat>& out,
              Counters& counters) const {
     const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_);
     if (!s) {
       return;
     }
-    const Rgb value = s->connection.value * s->connection.weight;
-    if (!usable(value, counters)) {
-      return;
-    }
-    ++counters.splat_rays;
-    if (!context_.scene.occluded(s->connection.from, s->connection.to)) {
-      out.push_back({s->raster, value / static_cast<float>(light_paths_)});
+    const Connection& c = s->connection;
+    const Rgb value =
+        arriving(weighted(c, v.edges + 1, 1) / static_cast<float>(light_paths_), c,
+                 roulette_.at(s->raster), sampler, counters.splats, counters.splat_rays);
+    if (usable(value, counters)) {
+      out.push_back({s->raster, value});
     }
   }
 
@@ -184,43 +204,50 @@ class Bdpt final : public PassIntegrator {
     Sampler sampler = camera_sampler(index, pass);
     sampler.start_block(0);
     const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
+    const Roulette roulette = roulette_.at(raster);
     Rgb sum(0.0f);
     const auto gather = [&](Rgb value) {
       if (usable(value, counters)) {
         sum += value;
       }
     };
-    const bool seen = trace_camera_subpath(
+    const float alpha = trace_camera_subpath(
         context_.scene, context_.camera, raster, mis_, settings_.walk, sampler, counters,
         [&](const LightFound& found) {
           if (found.edges == 1 && settings_.film_transparent &&
               context_.scene.lights[found.light]->infinite()) {
             return;
           }
-          gather(found.beta * found.hit.radiance * found.weight);
+          const Connection c{found.beta * found.hit.radiance, found.weight, {}, {}, 0};
+          gather(weighted(c, 0, found.edges + 1));
         },
-        [&](const PathVertex& v, Sampler& walk_sampler) {
+        [&](const PathVertex& v, Sampler& walk) {
           if (v.bsdf().connectible()) {
-            gather(next_event(v, walk_sampler, counters));
-            gather(connect(v, walk_sampler, counters));
+            gather(next_event(v, roulette, walk, counters));
+            gather(connect(v, roulette, walk, counters));
           }
         });
-    const float alpha = seen || !settings_.film_transparent ? 1.0f : 0.0f;
-    context_.film.add_sample(index, sum, alpha);
+    context_.film.add_sample(index, sum, settings_.film_transparent ? alpha : 1.0f);
     if (settings_.check_weights && index % kOracleStride == 0) {
       check(raster, index, pass);
     }
   }
 
-  Rgb next_event(const PathVertex& v, Sampler& sampler, Counters& counters) const {
+  Rgb next_event(const PathVertex& v, const Roulette& roulette, Sampler& sampler,
+                 Counters& counters) const {
     if (!context_.scene.light_sampler.illuminates()) {
       return Rgb(0.0f);
     }
     const auto nee = connect_to_light(context_.scene, v, mis_, sampler);
-    return nee ? visible(nee->connection, 1.0f, counters.nee_rays) : Rgb(0.0f);
+    if (!nee) {
+      return Rgb(0.0f);
+    }
+    return arriving(weighted(nee->connection, 1, v.edges + 1), nee->connection, roulette, sampler,
+                    counters.nee_samples, counters.nee_rays);
   }
 
-  Rgb connect(const PathVertex& v, Sampler& sampler, Counters& counters) const {
+  Rgb connect(const PathVertex& v, const Roulette& roulette, Sampler& sampler,
+              Counters& counters) const {
     Rgb sum(0.0f);
     if (counts_.connection == 0.0f || cache_.vertices.empty()) {
       return sum;
@@ -231,26 +258,22 @@ class Bdpt final : public PassIntegrator {
     const float scale =
         static_cast<float>(size) / (settings_.connections * static_cast<float>(wave_paths_));
     for (int n = 0; n < samples; ++n) {
+      ++counters.connections;
       const size_t pick =
           std::min(static_cast<size_t>(sampler.next_1d() * static_cast<double>(size)), size - 1);
       const LightVertex& l = cache_.vertices[pick];
       if (l.edges + v.edges + 1 > settings_.walk.max_edges) {
         continue;
       }
-      if (const auto c = connect_vertices(l, cache_.bsdf(l), v, mis_)) {
-        sum += visible(*c, scale, counters.connection_rays);
+      const auto c =
+          connect_vertices(l, cache_.bsdf(l), v, mis_, scale, roulette, sampler, counters);
+      if (c) {
+        uint64_t with_value = 0;
+        sum += arriving(weighted(*c, l.edges + 1, v.edges + 1), *c, roulette, sampler, with_value,
+                        counters.connection_rays);
       }
     }
     return sum;
-  }
-
-  Rgb visible(const Connection& c, float scale, uint64_t& rays) const {
-    const Rgb value = c.value * (c.weight * scale);
-    if (is_black(value)) {
-      return value;
-    }
-    ++rays;
-    return context_.scene.occluded(c.from, c.to) ? Rgb(0.0f) : value;
   }
 
   void check(vec2 raster, size_t index, int pass) {
@@ -266,6 +289,7 @@ class Bdpt final : public PassIntegrator {
   Mis mis_;
   size_t waves_ = 1, wave_paths_ = 0;
   VertexCache cache_;
+  RouletteMap roulette_;
   std::mutex check_mutex_;
   double weight_error_ = 0.0;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "janus/camera/camera.h"
@@ -15,6 +16,12 @@
 
 namespace janus {
 
+// The technique with s vertices on the light side and t on the camera side.
+struct Technique {
+  int s, t;
+  bool operator==(const Technique&) const = default;
+};
+
 struct IntegratorSettings {
   WalkSettings walk;
   Heuristic heuristic = Heuristic::Balance;
@@ -24,6 +31,8 @@ struct IntegratorSettings {
   uint32_t seed = 0;
   size_t cache_bytes = size_t{256} << 20;  // upper bound for the light-vertex cache
   bool check_weights = false;  // debug: compare weights of sampled paths with the oracle
+  bool contribution_roulette = true;
+  std::optional<Technique> only;  // debug: this technique alone and without weights
 };
 
 // What an integrator renders with; everything outlives it.

@@ -46,12 +46,15 @@ class LightTracer final : public PassIntegrator {
   void splat(const PathVertex& v, Sampler& sampler, float margin, size_t count,
              std::vector<Splat>& out, Counters& counters) const {
     const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_);
-    if (!s || !usable(s->connection.value, counters)) {
+    const int crossings = settings_.walk.max_crossings - v.crossings;
+    if (!s || crossings < 0 || !usable(s->connection.value, counters)) {
       return;
     }
     ++counters.splat_rays;
-    if (!context_.scene.occluded(s->connection.from, s->connection.to)) {
-      out.push_back({s->raster, s->connection.value / static_cast<float>(count)});
+    const Rgb value = s->connection.value *
+                      context_.scene.transmittance(s->connection.from, s->connection.to, crossings);
+    if (!is_black(value)) {
+      out.push_back({s->raster, value / static_cast<float>(count)});
     }
   }
 
@@ -65,7 +68,7 @@ class LightTracer final : public PassIntegrator {
         sampler.start_block(0);
         const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
         Rgb sum(0.0f);
-        const bool seen = trace_camera_subpath(
+        const float alpha = trace_camera_subpath(
             context_.scene, context_.camera, raster, mis_, one_edge, sampler, counters,
             [&](const LightFound& found) {
               if (!(settings_.film_transparent && context_.scene.lights[found.light]->infinite())) {
@@ -73,8 +76,8 @@ class LightTracer final : public PassIntegrator {
               }
             },
             [](const PathVertex&, Sampler&) {});
-        const float alpha = seen || !settings_.film_transparent ? 1.0f : 0.0f;
-        context_.film.add_sample(i, usable(sum, counters) ? sum : Rgb(0.0f), alpha);
+        context_.film.add_sample(i, usable(sum, counters) ? sum : Rgb(0.0f),
+                                 settings_.film_transparent ? alpha : 1.0f);
       }
     });
   }

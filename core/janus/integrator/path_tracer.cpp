@@ -19,10 +19,10 @@ class PathTracer final : public PassIntegrator {
         Sampler sampler = camera_sampler(i, pass);
         sampler.start_block(0);
         const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
-        bool seen = false;
-        const Rgb value = radiance(raster, sampler, counters, seen);
-        const float alpha = seen || !settings_.film_transparent ? 1.0f : 0.0f;
-        context_.film.add_sample(i, usable(value, counters) ? value : Rgb(0.0f), alpha);
+        float alpha = 1.0f;
+        const Rgb value = radiance(raster, sampler, counters, alpha);
+        context_.film.add_sample(i, usable(value, counters) ? value : Rgb(0.0f),
+                                 settings_.film_transparent ? alpha : 1.0f);
       }
     });
   }
@@ -36,79 +36,117 @@ class PathTracer final : public PassIntegrator {
     return own / (own + other);
   }
 
-  Rgb radiance(vec2 raster, Sampler& sampler, Counters& counters, bool& seen) const {
+  // A walk between two vertices.
+  struct Walk {
+    Ray ray;               // from the last vertex
+    Receiver previous;     // that vertex
+    vec3 origin;           // where the present segment starts: there, or at the last crossing
+    float t_begin = 0.0f;  // its distance along the ray
+    float pdf_solid = 0.0f;
+    bool delta = true;  // no next event estimation has looked for the light ahead
+    int edges = 1, crossings = 0;
+    Rgb beta = Rgb(1.0f);
+  };
+
+  // Light of source `index` found on the way.
+  Rgb found(const Walk& walk, size_t index, const LightHit& hit) const {
+    const Light& light = *context_.scene.lights[index];
+    if (walk.edges == 1 &&
+        (!light.visible_camera || (light.infinite() && settings_.film_transparent))) {
+      return Rgb(0.0f);
+    }
+    const LightSampler& lights = context_.scene.light_sampler;
+    const float pdf_nee =
+        walk.delta
+            ? 0.0f
+            : lights.pmf_illumination(walk.previous, index, hit.primitive) * hit.pdf_illumination;
+    return walk.beta * hit.radiance * (walk.delta ? 1.0f : weight(walk.pdf_solid, pdf_nee));
+  }
+
+  // The lamps on the present segment, which ends at `t_end`, or nowhere.
+  Rgb lamps(const Walk& walk, std::optional<float> t_end) const {
+    Rgb sum(0.0f);
+    for (const size_t lamp : context_.scene.lamps) {
+      const Light& light = *context_.scene.lights[lamp];
+      const float t_max = t_end.value_or(light.infinite() ? kInfinity : walk.ray.t_max);
+      const auto hit = light.intersect(Ray{walk.ray.origin, walk.ray.direction, t_max});
+      if (hit && hit->t > walk.t_begin) {
+        sum += found(walk, lamp, *hit);
+      }
+    }
+    return sum;
+  }
+
+  Rgb radiance(vec2 raster, Sampler& sampler, Counters& counters, float& alpha) const {
     const Scene& scene = context_.scene;
     ++counters.camera_paths;
-    Ray ray = context_.camera.sample_ray(raster, sampler.next_2d()).ray;
-    Receiver previous{ray.origin, ray.direction, true};
-    Rgb beta(1.0f), sum(0.0f);
-    float pdf_solid = 0.0f;
-    bool delta = true;
-    for (int edges = 1;; ++edges) {
+    const Ray start = context_.camera.sample_ray(raster, sampler.next_2d()).ray;
+    Walk walk{start, {start.origin, start.direction, true}, start.origin};
+    Rgb sum(0.0f);
+    for (;;) {
       ++counters.camera_rays;
-      const auto hit = scene.intersect(ray);
-
-      const auto add_light = [&](size_t index, const LightHit& found) {
-        const Light& light = *scene.lights[index];
-        if (edges == 1 &&
-            (!light.visible_camera || (light.infinite() && settings_.film_transparent))) {
-          return;
-        }
-        const float pdf_nee =
-            scene.light_sampler.pmf_illumination(previous, index, found.primitive) *
-            found.pdf_illumination;
-        sum += beta * found.radiance * (delta ? 1.0f : weight(pdf_solid, pdf_nee));
-      };
-      for (const size_t lamp : scene.lamps) {
-        const Light& light = *scene.lights[lamp];
-        const float t_max = hit                ? glm::length(hit->p - ray.origin)
-                            : light.infinite() ? kInfinity
-                                               : ray.t_max;
-        if (const auto found = light.intersect(Ray{ray.origin, ray.direction, t_max})) {
-          add_light(lamp, *found);
-        }
-      }
+      const vec3 wo = -walk.ray.direction;
+      const auto hit =
+          scene.intersect(Ray{walk.origin, walk.ray.direction, walk.ray.t_max - walk.t_begin});
       if (!hit) {
-        return sum;
+        if (walk.edges == 1) {
+          alpha = 1.0f - average(walk.beta);
+        }
+        return sum + lamps(walk, std::nullopt);
       }
-      seen = true;
+      const float t_end = glm::length(hit->p - walk.ray.origin);
+      sum += lamps(walk, t_end);
       const ShadingResult shading = scene.shade(*hit);
       if (size_t index; const MeshLight* light = scene.mesh_light(*hit, index)) {
-        add_light(index, light->at(*hit, previous.p, ray.direction, shading.emission));
-      }
-      if (edges + 1 > settings_.walk.max_edges) {
-        return sum;
+        sum += found(walk, index,
+                     light->at(*hit, walk.previous.p, walk.ray.direction, shading.emission));
       }
 
+      if (!is_black(shading.transparency)) {
+        const float through = average(shading.transparency);
+        const float pass = through / (through + shading.bsdf.albedo());
+        if (sampler.next_1d() < pass) {
+          if (++walk.crossings > settings_.walk.max_crossings) {
+            return sum;
+          }
+          walk.beta *= shading.transparency / pass;
+          walk.origin = offset_origin(hit->p, hit->ng, hit->offset, walk.ray.direction);
+          walk.t_begin = t_end;
+          continue;
+        }
+        walk.beta /= 1.0f - pass;
+      }
+
+      if (walk.edges + 1 > settings_.walk.max_edges) {
+        return sum;
+      }
       const BsdfView bsdf = shading.bsdf.view(hit->ng);
-      const vec3 wo = -ray.direction;
-      sampler.start_block(edges);
+      sampler.start_block(walk.edges);
       if (bsdf.connectible() && scene.light_sampler.illuminates()) {
-        sum += beta * direct(*hit, bsdf, wo, sampler, counters);
+        sum += walk.beta * direct(*hit, bsdf, wo, walk.crossings, sampler, counters);
       }
 
       const float u_lobe = sampler.next_1d();
       const vec2 u = sampler.next_2d();
-      const float u_survive = sampler.next_1d();
       const auto sample = bsdf.sample(wo, u_lobe, u, TransportMode::Radiance);
       if (!sample) {
         return sum;
       }
-      beta *= sample->weight;
-      const float q = survival(beta, 1.0f, edges);
-      if (is_black(beta) || u_survive >= q) {
+      Rgb beta = walk.beta * sample->weight;
+      const float q = survival(beta, 1.0f, walk.edges);
+      if (is_black(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
         return sum;
       }
-      beta /= q;
-      pdf_solid = sample->pdf_solid;
-      delta = sample->delta;
-      previous = receiver(*hit, bsdf, wo);
-      ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, sample->direction), sample->direction};
+      const Ray next{offset_origin(hit->p, hit->ng, hit->offset, sample->direction),
+                     sample->direction};
+      walk =
+          Walk{next,          receiver(*hit, bsdf, wo), next.origin,    0.0f,    sample->pdf_solid,
+               sample->delta, walk.edges + 1,           walk.crossings, beta / q};
     }
   }
 
-  Rgb direct(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, Sampler& sampler,
-             Counters& counters) const {
+  Rgb direct(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, int crossings,
+             Sampler& sampler, Counters& counters) const {
     const Scene& scene = context_.scene;
     const float u_light = sampler.next_1d();
     const vec2 u = sampler.next_2d();
@@ -119,18 +157,21 @@ class PathTracer final : public PassIntegrator {
     if (!sample) {
       return Rgb(0.0f);
     }
-    const Rgb f = bsdf.eval_cos(wo, sample->wi);
-    if (is_black(f)) {
+    const BsdfEval e = bsdf.evaluate(wo, sample->wi, TransportMode::Radiance);
+    if (is_black(e.f)) {
       return Rgb(0.0f);
     }
+    ++counters.nee_samples;
     ++counters.nee_rays;
-    if (scene.occluded(offset_origin(hit.p, hit.ng, hit.offset, sample->wi), sample->target)) {
-      return Rgb(0.0f);
+    const Rgb visible =
+        scene.transmittance(offset_origin(hit.p, hit.ng, hit.offset, sample->wi), sample->target,
+                            settings_.walk.max_crossings - crossings);
+    if (is_black(visible)) {
+      return visible;
     }
     const float pdf_nee = choice.pmf * sample->pdf_solid;
-    const float pdf_hit =
-        light.hittable() ? bsdf.pdf_solid(wo, sample->wi, TransportMode::Radiance) : 0.0f;
-    return f * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee);
+    const float pdf_hit = light.hittable() ? e.pdf_radiance : 0.0f;
+    return e.f * visible * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee);
   }
 };
 

@@ -15,6 +15,16 @@ inline uint32_t hash32(uint32_t x) {
   return x;
 }
 
+// A full-avalanche 64-bit hash (the "splitmix64" finalizer; Stafford's variant 13).
+inline uint64_t mix64(uint64_t x) {
+  x ^= x >> 30;
+  x *= 0xbf58476d1ce4e5b9U;
+  x ^= x >> 27;
+  x *= 0x94d049bb133111ebU;
+  x ^= x >> 31;
+  return x;
+}
+
 inline uint32_t hash_combine(uint32_t seed, uint32_t value) {
   return hash32(seed ^ (value * 0x9e3779b9U + 0x7f4a7c15U + (seed << 6) + (seed >> 2)));
 }

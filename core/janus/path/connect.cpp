@@ -3,6 +3,19 @@
 
 namespace janus {
 
+LightVertex::LightVertex(const PathVertex& v)
+    : p(v.hit.p),
+      ng(v.hit.ng),
+      offset(v.hit.offset),
+      wi(v.back),
+      beta(v.beta),
+      mis(v.mis),
+      bound(max_component(v.beta) * v.bsdf().peak()),
+      first_lobe(0),
+      lobe_count(0),
+      edges(static_cast<uint16_t>(v.edges)),
+      crossings(static_cast<uint16_t>(v.crossings)) {}
+
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& v,
                                                 const Mis& mis, Sampler& sampler) {
   const float u_light = sampler.next_1d();
@@ -15,25 +28,27 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   if (!sample) {
     return std::nullopt;
   }
-  const vec3 wo = v.back, wi = sample->wi;
-  const Rgb f = bsdf.eval(wo, wi, TransportMode::Radiance);
-  if (is_black(f)) {
+  const vec3 wi = sample->wi;
+  const BsdfEval e = bsdf.evaluate(v.back, wi, TransportMode::Radiance);
+  if (is_black(e.f)) {
     return std::nullopt;
   }
   const float pdf_nee = choice.pmf * sample->pdf_solid;
-  const float pdf_hit = light.hittable() ? bsdf.pdf_solid(wo, wi, TransportMode::Radiance) : 0.0f;
+  const float pdf_hit = light.hittable() ? e.pdf_radiance : 0.0f;
   const float joint =
       scene.light_sampler.pmf_emission(choice.light) *
       emission_density(sample->emission, std::abs(dot(wi, v.hit.ng)), sample->distance2);
-  const float weight = mis.weight_nee(pdf_nee, pdf_hit, joint, v.mis,
-                                      bsdf.pdf_solid(wo, wi, TransportMode::Importance));
-  return LightConnection{{v.beta * f * sample->radiance / pdf_nee, weight,
-                          offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wi), sample->target},
-                         {joint, pdf_nee, light.hittable(), wi}};
+  const float weight = mis.weight_nee(pdf_nee, pdf_hit, joint, v.mis, e.pdf_importance);
+  return LightConnection{
+      {v.beta * e.f * sample->radiance / pdf_nee, weight,
+       offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wi), sample->target, v.crossings},
+      {joint, pdf_nee, light.hittable(), wi}};
 }
 
 std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_bsdf,
-                                           const PathVertex& c, const Mis& mis) {
+                                           const PathVertex& c, const Mis& mis, float scale,
+                                           const Roulette& roulette, Sampler& sampler,
+                                           Counters& counters) {
   const vec3 d = l.p - c.hit.p;
   const float d2 = length2(d);
   if (!(d2 > 0.0f)) {
@@ -41,24 +56,35 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   }
   const vec3 wi = d / std::sqrt(d2), wo = c.back;
   const BsdfView camera_bsdf = c.bsdf();
-  const Rgb f_camera = camera_bsdf.eval(wo, wi, TransportMode::Radiance);
-  if (is_black(f_camera)) {
+  const float cos_camera = dot(wi, c.hit.ng), cos_light = -dot(wi, l.ng);
+  // Both ends must scatter to the side where the other end is.
+  if ((cos_camera * dot(wo, c.hit.ng) <= 0.0f && !camera_bsdf.transmits()) ||
+      (cos_light * dot(l.wi, l.ng) <= 0.0f && !light_bsdf.transmits())) {
     return std::nullopt;
   }
-  const Rgb f_light = light_bsdf.eval(-wi, l.wi, TransportMode::Importance);
-  if (is_black(f_light)) {
+  ++counters.connections_facing;
+  scale /= d2;
+  const float bound = max_component(c.beta) * camera_bsdf.peak() * l.bound *
+                      std::abs(cos_camera * cos_light) * scale;
+  if (!roulette.survives(bound, sampler, scale)) {
     return std::nullopt;
   }
-  const float pdf_area_light =
-      camera_bsdf.pdf_solid(wo, wi, TransportMode::Radiance) * std::abs(dot(wi, l.ng)) / d2;
-  const float pdf_area_camera =
-      light_bsdf.pdf_solid(-wi, l.wi, TransportMode::Importance) * std::abs(dot(wi, c.hit.ng)) / d2;
-  const float weight = mis.weight_connection(
-      l.mis, pdf_area_light, light_bsdf.pdf_solid(-wi, l.wi, TransportMode::Radiance), c.mis,
-      pdf_area_camera, camera_bsdf.pdf_solid(wo, wi, TransportMode::Importance));
-  return Connection{c.beta * f_camera * f_light * l.beta / d2, weight,
+  const BsdfEval at_camera = camera_bsdf.evaluate(wo, wi, TransportMode::Radiance);
+  if (is_black(at_camera.f)) {
+    return std::nullopt;
+  }
+  const BsdfEval at_light = light_bsdf.evaluate(-wi, l.wi, TransportMode::Importance);
+  if (is_black(at_light.f)) {
+    return std::nullopt;
+  }
+  ++counters.connections_evaluated;
+  const float pdf_area_light = at_camera.pdf_radiance * std::abs(cos_light) / d2;
+  const float pdf_area_camera = at_light.pdf_importance * std::abs(cos_camera) / d2;
+  const float weight = mis.weight_connection(l.mis, pdf_area_light, at_light.pdf_radiance, c.mis,
+                                             pdf_area_camera, at_camera.pdf_importance);
+  return Connection{c.beta * at_camera.f * at_light.f * l.beta * scale, weight,
                     offset_origin(c.hit.p, c.hit.ng, c.hit.offset, wi),
-                    offset_origin(l.p, l.ng, l.offset, -wi)};
+                    offset_origin(l.p, l.ng, l.offset, -wi), c.crossings + l.crossings};
 }
 
 std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera, vec2 u_lens,
@@ -68,17 +94,19 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
     return std::nullopt;
   }
   const BsdfView bsdf = v.bsdf();
-  const vec3 wo = to_camera->wo, wi = v.back;
-  const Rgb f = bsdf.eval(wo, wi, TransportMode::Importance);
-  if (is_black(f)) {
+  const vec3 wo = to_camera->wo;
+  const BsdfEval e = bsdf.evaluate(wo, v.back, TransportMode::Importance);
+  if (is_black(e.f)) {
     return std::nullopt;
   }
   const float importance = to_camera->importance();
-  const float weight = mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)),
-                                        bsdf.pdf_solid(wo, wi, TransportMode::Radiance));
-  return CameraSplat{{v.beta * f * importance, weight,
-                      offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo), to_camera->target},
-                     to_camera->raster};
+  const float weight =
+      mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)), e.pdf_radiance);
+  return CameraSplat{
+      {v.beta * e.f * importance, weight, offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo),
+       to_camera->target, v.crossings},
+      to_camera->raster,
+      {v.hit.p + std::sqrt(to_camera->distance2) * wo, to_camera->density}};
 }
 
 }  // namespace janus

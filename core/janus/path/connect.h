@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include "janus/path/roulette.h"
 #include "janus/path/subpath.h"
 
 namespace janus {
@@ -16,6 +17,7 @@ struct Connection {
   Rgb value;
   float weight;
   vec3 from, to;  // shadow ray, both ends off their surfaces
+  int crossings;  // of transparent surfaces that the path has so far
 };
 
 // A light vertex as the cache keeps it.
@@ -25,8 +27,13 @@ struct LightVertex {
   vec3 wi;
   Rgb beta;
   MisState mis;
+  float bound;  // max |beta| times the peak of the BSDF
   uint32_t first_lobe;
-  uint16_t lobe_count, edges;
+  uint16_t lobe_count, edges, crossings;
+
+  LightVertex() = default;
+  // Of a subpath's vertex; the lobes are the cache's business.
+  explicit LightVertex(const PathVertex& v);
 };
 
 struct LightConnection {
@@ -36,12 +43,17 @@ struct LightConnection {
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& camera_vertex,
                                                 const Mis& mis, Sampler& sampler);
 
+// `scale` is the estimator's factor for one connection; `roulette` plays on a bound of the
+// contribution before the BSDFs are evaluated, and `value` makes up for it.
 std::optional<Connection> connect_vertices(const LightVertex& light_vertex, BsdfView light_bsdf,
-                                           const PathVertex& camera_vertex, const Mis& mis);
+                                           const PathVertex& camera_vertex, const Mis& mis,
+                                           float scale, const Roulette& roulette, Sampler& sampler,
+                                           Counters& counters);
 
 struct CameraSplat {
   Connection connection;
   vec2 raster;
+  CameraEnd end;
 };
 std::optional<CameraSplat> connect_to_camera(const PathVertex& light_vertex, const Camera& camera,
                                              vec2 u_lens, float margin, const Mis& mis);

@@ -22,8 +22,7 @@ struct FullPath {
   std::vector<Scattering> interior;  // z_1 first
   double joint = 0;                  // J
   double pdf_nee = 0;                // pN
-  double pdf_camera_solid = 0;       // of the direction from the camera to z_{k-1}
-  vec3 camera_center{};
+  CameraEnd camera;
   vec3 to_light{};  // unit, from z_1 to z_0
   bool hittable = false;
 
@@ -31,7 +30,7 @@ struct FullPath {
   const Scattering& z(int i) const { return interior[i - 1]; }
 
   vec3 wi(int i) const { return i == 1 ? to_light : normalize(z(i - 1).p - z(i).p); }
-  vec3 wo(int i) const { return normalize((i == k() - 1 ? camera_center : z(i + 1).p) - z(i).p); }
+  vec3 wo(int i) const { return normalize((i == k() - 1 ? camera.lens : z(i + 1).p) - z(i).p); }
   double pdf(int i, TransportMode mode) const {
     if (z(i).delta) {
       return mode == TransportMode::Radiance ? z(i).discrete_radiance : z(i).discrete_importance;
@@ -45,7 +44,8 @@ struct FullPath {
   }
   double pr(int i) const {  // density of z_i from the camera side
     if (i == k() - 1) {
-      return pdf_camera_solid * geometry(z(i).p, z(i).ng, camera_center);
+      const double distance2 = camera.density.from_point ? length2(camera.lens - z(i).p) : 1.0;
+      return camera.density.value * std::abs(dot(z(i).ng, wo(i))) / distance2;
     }
     const double solid = pdf(i + 1, TransportMode::Radiance);
     return i == 0 ? solid : solid * geometry(z(i).p, z(i).ng, z(i + 1).p);
@@ -129,17 +129,6 @@ void set_light(FullPath& path, const LightEnd& end) {
   path.to_light = end.wi;
 }
 
-bool set_camera(FullPath& path, const Camera& camera) {
-  const vec3 p = path.interior.back().p;
-  const auto connection = camera.connect(p, vec2(0.5f), kInfinity);
-  if (!connection) {
-    return false;
-  }
-  path.pdf_camera_solid = connection->density.value;
-  path.camera_center = p + std::sqrt(connection->distance2) * connection->wo;
-  return true;
-}
-
 }  // namespace
 
 WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
@@ -149,9 +138,6 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
   WeightCheck check;
   Counters counters;
   const auto compare = [&](FullPath& path, int s, float weight) {
-    if (!set_camera(path, camera)) {
-      return;
-    }
     const double error = std::abs(weight - path.weight(s, heuristic, counts));
     check.max_error = std::max(check.max_error, error);
     check.sum_error += error;
@@ -163,15 +149,20 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
   std::vector<PathVertex> light, camera_vertices;
   if (scene.light_sampler.emits()) {
     Sampler sampler(seed, Stream::Light, 0, index);
-    trace_light_subpath(scene, mis, settings, sampler, counters,
-                        [&](const PathVertex& v, Sampler&) { light.push_back(v); });
-  }
-  for (int i = 1; i <= static_cast<int>(light.size()) && counts.splat > 0.0f; ++i) {
-    if (const auto splat = connect_to_camera(light[i - 1], camera, vec2(0.5f), kInfinity, mis)) {
-      FullPath path = join(light, i, {}, 0);
-      set_light(path, light[0].light_end);
-      compare(path, i + 1, splat->connection.weight);
-    }
+    trace_light_subpath(
+        scene, mis, settings, sampler, counters, [&](const PathVertex& v, Sampler& walk_sampler) {
+          light.push_back(v);
+          if (counts.splat == 0.0f) {
+            return;
+          }
+          const vec2 u_lens = walk_sampler.next_2d();
+          if (const auto splat = connect_to_camera(v, camera, u_lens, kInfinity, mis)) {
+            FullPath path = join(light, v.edges, {}, 0);
+            set_light(path, light[0].light_end);
+            path.camera = splat->end;
+            compare(path, v.edges + 1, splat->connection.weight);
+          }
+        });
   }
 
   Sampler sampler(seed, Stream::Camera, index, 0);
@@ -182,6 +173,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
     FullPath path = join({}, 0, camera_vertices, found.edges - 1);
     set_delta(path.interior.front(), found.previous, TransportMode::Radiance);
     set_light(path, found.end);
+    path.camera = camera_vertices[0].camera_end;
     compare(path, 0, found.weight);
   };
   const auto on_vertex = [&](const PathVertex& v, Sampler& walk_sampler) {
@@ -191,17 +183,17 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
       if (const auto nee = connect_to_light(scene, v, mis, walk_sampler)) {
         FullPath path = join({}, 0, camera_vertices, j);
         set_light(path, nee->end);
+        path.camera = camera_vertices[0].camera_end;
         compare(path, 1, nee->connection.weight);
       }
     }
     for (int i = 1; i <= static_cast<int>(light.size()) && counts.connection > 0.0f; ++i) {
       const PathVertex& l = light[i - 1];
-      const LightVertex cached{l.hit.p, l.hit.ng, l.hit.offset,
-                               l.back,  l.beta,   l.mis,
-                               0,       0,        static_cast<uint16_t>(l.edges)};
-      if (const auto connection = connect_vertices(cached, l.bsdf(), v, mis)) {
+      if (const auto connection = connect_vertices(LightVertex(l), l.bsdf(), v, mis, 1.0f,
+                                                   Roulette(), walk_sampler, counters)) {
         FullPath path = join(light, i, camera_vertices, j);
         set_light(path, light[0].light_end);
+        path.camera = camera_vertices[0].camera_end;
         compare(path, i + 1, connection->weight);
       }
     }

@@ -4,45 +4,14 @@
 // vertex to a visitor; what is done there (connect, splat, gather) is the integrator's business.
 #pragma once
 
-#include <algorithm>
-
 #include "janus/camera/camera.h"
-#include "janus/path/counters.h"
-#include "janus/path/mis.h"
-#include "janus/render/scene.h"
-#include "janus/sampling/sampler.h"
+#include "janus/path/flight.h"
 
 namespace janus {
 
 struct WalkSettings {
-  int max_edges = 14;  // edges of a whole path; Cycles' max_bounces + 2
-};
-
-// The light's end of a path: J and pN of path/mis.h.
-struct LightEnd {
-  float joint = 0.0f, pdf_nee = 0.0f;
-  bool hittable = false;
-  vec3 wi = vec3(0.0f);  // unit, from z_1 to z_0
-};
-
-// How a walk left a vertex (see BsdfSample).
-struct Departure {
-  bool delta = false;
-  float pdf_solid = 0.0f, pdf_reverse = 0.0f;
-};
-
-// A scattering vertex of a subpath.
-struct PathVertex {
-  SurfaceInteraction hit;
-  ShadingResult shading;
-  vec3 back;  // unit direction to the previous vertex: wi on light, wo on camera subpaths
-  Rgb beta;   // light: flux that arrives; camera: throughput
-  MisState mis;
-  int edges;           // from the start of the subpath
-  Departure previous;  // how the walk left the vertex before (edges > 1)
-  LightEnd light_end;  // light subpaths: their start
-
-  BsdfView bsdf() const { return shading.bsdf.view(hit.ng); }
+  int max_edges = 14;     // edges of a whole path; Cycles' max_bounces + 2
+  int max_crossings = 8;  // of transparent surfaces on a whole path
 };
 
 // Light found on the segment after a camera vertex: a path of technique s=0 with `edges` edges.
@@ -56,25 +25,10 @@ struct LightFound {
   Departure previous;  // how z_1 was left
 };
 
-// The vertex as the choice of a light sees it; `side`: a direction on its camera side (or, for a
-// surface that does not transmit, on its light side).
-inline Receiver receiver(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 side) {
-  return {hit.p, dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, bsdf.transmits()};
-}
-
-// Survival probability of a walk. It divides the throughput and appears in no density.
-inline float survival(Rgb throughput, float eta_scale, int bounces) {
-  constexpr int kStart = 3;
-  if (bounces < kStart) {
-    return 1.0f;
-  }
-  return std::clamp(max_component(throughput) / eta_scale, 0.05f, 1.0f);
-}
-
 // State of a walk between two vertices.
 struct WalkStep {
   Ray ray;
-  BsdfSample sample;
+  Departure left;
   ClassSums behind;
   Rgb beta;
   float cos_previous;
@@ -86,7 +40,6 @@ inline std::optional<WalkStep> scatter(const PathVertex& v, const Mis& mis, Samp
                                        TransportMode mode, float start, float& eta_scale) {
   const float u_lobe = sampler.next_1d();
   const vec2 u = sampler.next_2d();
-  const float u_survive = sampler.next_1d();
   const auto sample = v.bsdf().sample(v.back, u_lobe, u, mode);
   if (!sample) {
     return std::nullopt;
@@ -94,15 +47,19 @@ inline std::optional<WalkStep> scatter(const PathVertex& v, const Mis& mis, Samp
   Rgb beta = v.beta * sample->weight;
   eta_scale *= sample->eta_scale;
   const float q = survival(beta / start, eta_scale, v.edges);
-  if (is_black(beta) || !is_finite(beta) || u_survive >= q) {
+  if (is_black(beta) || !is_finite(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
     return std::nullopt;
   }
   beta /= q;
   const vec3 d = sample->direction;
-  return WalkStep{Ray{offset_origin(v.hit.p, v.hit.ng, v.hit.offset, d), d}, *sample,
-                  mis.behind(v.mis, sample->delta, sample->pdf_reverse), beta,
+  return WalkStep{Ray{offset_origin(v.hit.p, v.hit.ng, v.hit.offset, d), d},
+                  {sample->delta, sample->pdf_solid, sample->pdf_reverse},
+                  mis.behind(v.mis, sample->delta, sample->pdf_reverse),
+                  beta,
                   std::abs(dot(d, v.hit.ng))};
 }
+
+inline bool usable_density(float pdf) { return pdf > 0.0f && std::isfinite(pdf); }
 
 // Traces one light subpath and calls on_vertex(const PathVertex&, Sampler&) at z_1, z_2, ...
 template <class OnVertex>
@@ -119,34 +76,36 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     return;
   }
   const float pmf = scene.light_sampler.pmf_emission(index);
-  const Ray ray{emission->origin, emission->direction};
-  ++counters.light_rays;
-  auto hit = scene.intersect(ray);
-  if (!hit) {
-    return;
-  }
-  const auto endpoint = light.endpoint(*emission, hit->p);
-  if (!endpoint || (*endpoint != emission->origin && scene.occluded(*endpoint, emission->origin))) {
-    return;
-  }
+  const auto nothing = [](float, float, bool) {};
 
   PathVertex v;
-  v.hit = *hit;
   v.beta = emission->weight / pmf;
   v.edges = 1;
-  const float cos_1 = std::abs(dot(ray.direction, hit->ng));
-  const float joint = pmf * emission_density(emission->density, cos_1, length2(hit->p - *endpoint));
-  if (!(joint > 0.0f)) {
+  v.crossings = 0;
+  const float start = max_component(v.beta);
+  const Ray ray{emission->origin, emission->direction};
+  if (!fly(scene, ray, settings.max_crossings, sampler, counters.light_rays, v, nothing)) {
     return;
   }
   v.back = -ray.direction;
-  v.shading = scene.shade(v.hit);
+  const auto endpoint = light.endpoint(*emission, v.hit.p);
+  if (!endpoint) {
+    return;
+  }
+  if (*endpoint != emission->origin) {
+    v.beta *=
+        scene.transmittance(*endpoint, emission->origin, settings.max_crossings - v.crossings);
+  }
+  const float joint = pmf * emission_density(emission->density, std::abs(dot(v.back, v.hit.ng)),
+                                             length2(v.hit.p - *endpoint));
+  if (!usable_density(joint) || is_black(v.beta)) {
+    return;
+  }
   const float pdf_nee = scene.light_sampler.pmf_illumination(receiver(v.hit, v.bsdf(), v.back),
                                                              index, emission->primitive) *
-                        light.pdf_illumination(*emission, *endpoint, hit->p);
-  v.light_end = {joint, pdf_nee, light.hittable(), -ray.direction};
+                        light.pdf_illumination(*emission, *endpoint, v.hit.p);
+  v.light_end = {joint, pdf_nee, light.hittable(), v.back};
   v.mis = mis.begin_light(joint, pdf_nee, light.hittable());
-  const float start = max_component(v.beta);
   float eta_scale = 1.0f;
   for (;;) {
     on_vertex(v, sampler);
@@ -158,113 +117,105 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     if (!step) {
       return;
     }
-    ++counters.light_rays;
-    hit = scene.intersect(step->ray);
-    if (!hit) {
-      return;
-    }
-    const float d2 = length2(hit->p - v.hit.p);
-    const float pdf_area =
-        step->sample.pdf_solid * std::abs(dot(step->ray.direction, hit->ng)) / d2;
-    if (!(pdf_area > 0.0f) || !std::isfinite(pdf_area)) {
-      return;
-    }
-    v.mis = mis.advance(step->behind, step->sample.delta, step->cos_previous / d2, pdf_area);
-    v.hit = *hit;
-    v.back = -step->ray.direction;
-    v.shading = scene.shade(v.hit);
     v.beta = step->beta;
-    v.previous = {step->sample.delta, step->sample.pdf_solid, step->sample.pdf_reverse};
+    const vec3 previous = v.hit.p;
+    if (!fly(scene, step->ray, settings.max_crossings, sampler, counters.light_rays, v, nothing)) {
+      return;
+    }
+    const float d2 = length2(v.hit.p - previous);
+    const float pdf_area = step->left.pdf_solid * std::abs(dot(step->ray.direction, v.hit.ng)) / d2;
+    if (!usable_density(pdf_area)) {
+      return;
+    }
+    v.mis = mis.advance(step->behind, step->left.delta, step->cos_previous / d2, pdf_area);
+    v.back = -step->ray.direction;
+    v.previous = step->left;
     ++v.edges;
   }
 }
 
 // Traces one camera subpath through `raster`. Calls on_light(const LightFound&) for all light on
-// its segments and on_vertex(const PathVertex&, Sampler&) at z_{k-1}, z_{k-2}, ...; returns whether
-// the first segment ended on a surface. The sampler's block 0 belongs to the caller (film).
+// its segments and on_vertex(const PathVertex&, Sampler&) at z_{k-1}, z_{k-2}, ...; returns the
+// share of the camera ray that ended on a surface (film alpha). The sampler's block 0 belongs to
+// the caller (film) and the lens.
 template <class OnLight, class OnVertex>
-bool trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster, const Mis& mis,
-                          const WalkSettings& settings, Sampler& sampler, Counters& counters,
-                          OnLight&& on_light, OnVertex&& on_vertex) {
+float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster, const Mis& mis,
+                           const WalkSettings& settings, Sampler& sampler, Counters& counters,
+                           OnLight&& on_light, OnVertex&& on_vertex) {
   ++counters.camera_paths;
   const CameraRay start = camera.sample_ray(raster, sampler.next_2d());
-  Ray ray = start.ray;
-  Receiver previous{start.lens, ray.direction, true};
-  Departure left{false, start.density.value, 0.0f};
-  float cos_previous = 0.0f, eta_scale = 1.0f;
-  bool seen = false;
-  ClassSums behind;
   PathVertex v;
   v.beta = Rgb(1.0f);
+  v.crossings = 0;
+  v.camera_end = {start.lens, start.density};
+  WalkStep step{start.ray, {false, start.density.value, 0.0f}, {}, v.beta, 0.0f};
+  Receiver previous{start.lens, start.ray.direction, true};
+  float eta_scale = 1.0f, alpha = 1.0f;
   for (v.edges = 1;; ++v.edges) {
-    ++counters.camera_rays;
-    const auto hit = scene.intersect(ray);
-
-    const auto found = [&](size_t index, const LightHit& light_hit) {
-      const Light& light = *scene.lights[index];
+    const Ray& ray = step.ray;
+    const auto found = [&](size_t index, const LightHit& hit) {
       if (v.edges == 1) {
-        if (light.visible_camera) {
-          on_light(LightFound{index, light_hit, v.beta, 1, 1.0f, {}, {}});
+        if (scene.lights[index]->visible_camera) {
+          on_light(LightFound{index, hit, v.beta, 1, 1.0f, {}, {}});
         }
         return;
       }
       const float joint = scene.light_sampler.pmf_emission(index) *
-                          emission_density(light_hit.emission, cos_previous, light_hit.distance2);
-      const float pdf_nee =
-          scene.light_sampler.pmf_illumination(previous, index, light_hit.primitive) *
-          light_hit.pdf_illumination;
-      on_light(LightFound{index,
-                          light_hit,
-                          v.beta,
-                          v.edges,
-                          mis.weight_hit(left.pdf_solid, left.delta, pdf_nee, joint, behind),
-                          {joint, pdf_nee, true, ray.direction},
-                          left});
+                          emission_density(hit.emission, step.cos_previous, hit.distance2);
+      const float pdf_nee = scene.light_sampler.pmf_illumination(previous, index, hit.primitive) *
+                            hit.pdf_illumination;
+      on_light(LightFound{
+          index,
+          hit,
+          v.beta,
+          v.edges,
+          mis.weight_hit(step.left.pdf_solid, step.left.delta, pdf_nee, joint, step.behind),
+          {joint, pdf_nee, true, ray.direction},
+          step.left});
     };
-    const float distance = hit ? glm::length(hit->p - ray.origin) : ray.t_max;
-    for (const size_t lamp : scene.lamps) {
-      const Light& light = *scene.lights[lamp];
-      const float t_max = light.infinite() && !hit ? kInfinity : distance;
-      if (const auto light_hit = light.intersect(Ray{ray.origin, ray.direction, t_max})) {
-        found(lamp, *light_hit);
+    const auto on_segment = [&](float t_begin, float t_end, bool surface) {
+      for (const size_t lamp : scene.lamps) {
+        const Light& light = *scene.lights[lamp];
+        const float t_max = light.infinite() && !surface ? kInfinity : t_end;
+        const auto light_hit = light.intersect(Ray{ray.origin, ray.direction, t_max});
+        if (light_hit && light_hit->t > t_begin) {
+          found(lamp, *light_hit);
+        }
       }
+      if (!surface) {
+        alpha = v.edges == 1 ? 1.0f - average(v.beta) : alpha;
+      } else if (!is_black(v.shading.emission)) {
+        size_t index;
+        if (const MeshLight* light = scene.mesh_light(v.hit, index)) {
+          found(index, light->at(v.hit, previous.p, ray.direction, v.shading.emission));
+        }
+      }
+    };
+    if (!fly(scene, ray, settings.max_crossings, sampler, counters.camera_rays, v, on_segment)) {
+      return alpha;
     }
-    if (!hit) {
-      return seen;
-    }
-    seen = true;
-    v.hit = *hit;
     v.back = -ray.direction;
-    v.shading = scene.shade(v.hit);
-    if (!is_black(v.shading.emission)) {
-      size_t index;
-      if (const MeshLight* light = scene.mesh_light(v.hit, index)) {
-        found(index, light->at(v.hit, previous.p, ray.direction, v.shading.emission));
-      }
-    }
     const float d2 = length2(v.hit.p - previous.p);
     const float cos_1 = std::abs(dot(ray.direction, v.hit.ng));
     const float pdf_area =
-        v.edges == 1 ? camera_density(start.density, cos_1, d2) : left.pdf_solid * cos_1 / d2;
-    if (v.edges + 1 > settings.max_edges || !(pdf_area > 0.0f) || !std::isfinite(pdf_area)) {
-      return seen;
+        v.edges == 1 ? camera_density(start.density, cos_1, d2) : step.left.pdf_solid * cos_1 / d2;
+    if (v.edges + 1 > settings.max_edges || !usable_density(pdf_area)) {
+      return alpha;
     }
-    v.mis = v.edges == 1 ? mis.begin_camera(pdf_area)
-                         : mis.advance(behind, left.delta, cos_previous / d2, pdf_area);
-    v.previous = left;
+    v.mis = v.edges == 1
+                ? mis.begin_camera(pdf_area)
+                : mis.advance(step.behind, step.left.delta, step.cos_previous / d2, pdf_area);
+    v.previous = step.left;
     sampler.start_block(v.edges);
     on_vertex(v, sampler);
 
-    const auto step = scatter(v, mis, sampler, TransportMode::Radiance, 1.0f, eta_scale);
-    if (!step) {
-      return seen;
+    const auto next = scatter(v, mis, sampler, TransportMode::Radiance, 1.0f, eta_scale);
+    if (!next) {
+      return alpha;
     }
     previous = receiver(v.hit, v.bsdf(), v.back);
-    v.beta = step->beta;
-    ray = step->ray;
-    left = {step->sample.delta, step->sample.pdf_solid, step->sample.pdf_reverse};
-    behind = step->behind;
-    cos_previous = step->cos_previous;
+    step = *next;
+    v.beta = step.beta;
   }
 }
 

@@ -19,10 +19,28 @@ namespace janus {
 // SceneBuilder::commit().
 class Scene {
  public:
+  // The nearest surface, written to `hit`; false: none.
+  bool intersect(const Ray& ray, SurfaceInteraction& hit) const {
+    const auto found = accel->intersect(ray);
+    if (found) {
+      hit = *found;
+    }
+    return found.has_value();
+  }
   std::optional<SurfaceInteraction> intersect(const Ray& ray) const {
     return accel->intersect(ray);
   }
-  bool occluded(vec3 a, vec3 b) const { return accel->occluded(a, b); }
+  void shade(const SurfaceInteraction& hit, ShadingResult& result) const {
+    programs[hit.material].run(hit.ns, result);
+  }
+  // What the surfaces on the open segment from `a` to `b` let through; black if one of them is
+  // opaque, or if they are more than `max_crossings`.
+  Rgb transmittance(vec3 a, vec3 b, int max_crossings) const {
+    if (!has_transparency) {
+      return Rgb(accel->occluded(a, b) ? 0.0f : 1.0f);
+    }
+    return transmittance_through(a, b, max_crossings);
+  }
   ShadingResult shade(const SurfaceInteraction& hit) const {
     return programs[hit.material].run(hit.ns);
   }
@@ -44,8 +62,12 @@ class Scene {
   std::vector<std::unique_ptr<Light>> lights;  // mesh lights first
   std::vector<size_t> lamps;  // the lights that rays meet without a surface; the world last
   LightSampler light_sampler;
+  bool has_transparency = false;  // of some surface
   CameraDesc camera;
   Diagnostics diagnostics;
+
+ private:
+  Rgb transmittance_through(vec3 a, vec3 b, int max_crossings) const;
 };
 
 }  // namespace janus

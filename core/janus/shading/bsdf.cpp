@@ -44,6 +44,7 @@ void Bsdf::finish() {
   for (int i = 0; i < count_; ++i) {
     total += average(lobes_[i].weight);
   }
+  albedo_ = total;
   for (int i = 0; i < count_; ++i) {
     lobes_[i].pmf = total > 0.0f ? average(lobes_[i].weight) / total : 0.0f;
   }

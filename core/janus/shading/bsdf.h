@@ -31,6 +31,11 @@ struct BsdfSample {
   float eta_scale = 1.0f;
 };
 
+struct BsdfEval {
+  Rgb f;
+  float pdf_radiance = 0.0f, pdf_importance = 0.0f;
+};
+
 // A view of lobes at a point with geometric normal `ng` (unit, front side).
 class BsdfView {
  public:
@@ -49,12 +54,26 @@ class BsdfView {
   // light subpath needs with shading normals (Veach 1997, eq. 5.18).
   Rgb eval(vec3 wo, vec3 wi, TransportMode mode) const;
 
+  BsdfEval evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
+    return {eval(wo, wi, mode), pdf_solid(wo, wi, TransportMode::Radiance),
+            pdf_solid(wo, wi, TransportMode::Importance)};
+  }
+
   // Density with which sample() draws wi from wo (Radiance) or wo from wi (Importance); delta
   // lobes contribute nothing.
   float pdf_solid(vec3 wo, vec3 wi, TransportMode mode) const;
 
   // Draws the direction on the other side of `from`; nullopt when the walk is absorbed.
   std::optional<BsdfSample> sample(vec3 from, float u_lobe, vec2 u, TransportMode mode) const;
+
+  // A cheap estimate of the largest value of f (without the cosine), for roulette.
+  float peak() const {
+    float sum = 0.0f;
+    for (const Lobe& lobe : lobes_) {
+      sum += is_delta(lobe) ? 0.0f : max_component(lobe.weight) * kInvPi;
+    }
+    return sum;
+  }
 
   std::span<const Lobe> lobes() const { return lobes_; }
   vec3 ng() const { return ng_; }
@@ -77,6 +96,11 @@ class Bsdf {
     lobes_[count_++] = lobe;
     return true;
   }
+  void clear() { count_ = 0; }
+
+  // An estimate of the share of light that the lobes scatter.
+  float albedo() const { return albedo_; }
+
   // Sets the selection probabilities in proportion to the lobes' average weights.
   void finish();
 
@@ -86,6 +110,7 @@ class Bsdf {
  private:
   std::array<Lobe, kMaxLobes> lobes_;
   int count_ = 0;
+  float albedo_ = 0.0f;
 };
 
 }  // namespace janus

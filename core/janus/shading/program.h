@@ -12,6 +12,7 @@ namespace janus {
 struct ShadingResult {
   Bsdf bsdf;
   Rgb emission = Rgb(0.0f);  // radiance, on both sides
+  Rgb transparency = Rgb(0.0f);
 };
 
 // A compiled node graph. Its inputs are constants, so what is left of the graph is the list of
@@ -26,16 +27,22 @@ class Program {
 
   std::vector<Instruction> instructions;
   Rgb emission = Rgb(0.0f);
+  Rgb transparency = Rgb(0.0f);
 
   // `normal`: shading normal on the front side, unit.
   ShadingResult run(vec3 normal) const {
     ShadingResult result;
+    run(normal, result);
+    return result;
+  }
+  void run(vec3 normal, ShadingResult& result) const {
+    result.bsdf.clear();
     for (const Instruction& i : instructions) {
       result.bsdf.add(Lobe{i.type, i.weight, normal, i.ior, 0.0f});
     }
     result.bsdf.finish();
     result.emission = emission;
-    return result;
+    result.transparency = transparency;
   }
 };
 

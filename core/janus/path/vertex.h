@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The vertices of subpaths, and what every walk does at one.
+#pragma once
+
+#include <algorithm>
+
+#include "janus/path/mis.h"
+#include "janus/render/scene.h"
+
+namespace janus {
+
+// The light's end of a path: J and pN of path/mis.h.
+struct LightEnd {
+  float joint = 0.0f, pdf_nee = 0.0f;
+  bool hittable = false;
+  vec3 wi = vec3(0.0f);  // unit, from z_1 to z_0
+};
+
+// The camera's end of a path.
+struct CameraEnd {
+  vec3 lens = vec3(0.0f);  // z_k
+  PixelDensity density;
+};
+
+// How a walk left a vertex (see BsdfSample).
+struct Departure {
+  bool delta = false;
+  float pdf_solid = 0.0f, pdf_reverse = 0.0f;
+};
+
+// A scattering vertex of a subpath.
+struct PathVertex {
+  SurfaceInteraction hit;
+  ShadingResult shading;
+  vec3 back;  // unit direction to the previous vertex: wi on light, wo on camera subpaths
+  Rgb beta;   // light: flux that arrives; camera: throughput
+  MisState mis;
+  int edges;             // from the start of the subpath
+  int crossings;         // of transparent surfaces since the start of the subpath
+  Departure previous;    // how the walk left the vertex before (edges > 1)
+  LightEnd light_end;    // light subpaths: their start
+  CameraEnd camera_end;  // camera subpaths: theirs
+
+  BsdfView bsdf() const { return shading.bsdf.view(hit.ng); }
+};
+
+// The vertex as the choice of a light sees it; `side`: a direction on its camera side (or, for a
+// surface that does not transmit, on its light side).
+inline Receiver receiver(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 side) {
+  return {hit.p, dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, bsdf.transmits()};
+}
+
+// Survival probability of a walk. It divides the throughput and appears in no density.
+inline float survival(Rgb throughput, float eta_scale, int bounces) {
+  constexpr int kStart = 3;
+  if (bounces < kStart) {
+    return 1.0f;
+  }
+  return std::clamp(max_component(throughput) / eta_scale, 0.05f, 1.0f);
+}
+
+}  // namespace janus

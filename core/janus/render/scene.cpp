@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/render/scene.h"
+
+namespace janus {
+
+Rgb Scene::transmittance_through(vec3 a, vec3 b, int max_crossings) const {
+  const vec3 d = normalize(b - a);
+  Rgb result(1.0f);
+  Ray ray{a, d, glm::length(b - a)};
+  for (int crossings = 0;; ++crossings) {
+    const auto hit = accel->intersect(ray);
+    if (!hit) {
+      return result;
+    }
+    result *= shade(*hit).transparency;
+    if (is_black(result) || crossings >= max_crossings) {
+      return Rgb(0.0f);
+    }
+    ray.origin = offset_origin(hit->p, hit->ng, hit->offset, d);
+    ray.t_max = dot(b - ray.origin, d);
+  }
+}
+
+}  // namespace janus
