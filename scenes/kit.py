@@ -50,6 +50,7 @@ def neutral_settings(scene: bpy.types.Scene, width: int, height: int, samples: i
         _set(scene.cycles, pixel_filter_type="BLACKMAN_HARRIS", filter_width=1.5)
     if hasattr(scene, "janus"):
         _set(scene.janus, samples=samples, max_bounces=12, time_limit=0.0)
+        _set(scene.janus, transparent_max_bounces=8)
 
 
 def unbiased_cycles(cycles: bpy.types.PropertyGroup) -> None:

@@ -59,6 +59,13 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         max=1024,
         default=12,
     )
+    transparent_max_bounces: IntProperty(
+        name="Transparent",
+        description="Maximum number of transparent surfaces that a path passes",
+        min=0,
+        max=1024,
+        default=8,
+    )
     integrator: EnumProperty(
         name="Integrator",
         description="How light is found",

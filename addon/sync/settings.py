@@ -79,6 +79,7 @@ def render_settings(depsgraph) -> dict:
         "seed": janus.seed,
         "threads": render.threads if render.threads_mode == "FIXED" else 0,
         "max_bounces": janus.max_bounces,
+        "transparent_max_bounces": janus.transparent_max_bounces,
         "integrator": janus.integrator.lower(),
         "filter": janus.pixel_filter_type,
         "filter_width": janus.filter_width,

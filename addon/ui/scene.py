@@ -22,7 +22,9 @@ class JANUS_RENDER_PT_light_paths(JanusPanel, bpy.types.Panel):
     bl_context = "render"
 
     def draw(self, context):
-        self.column().prop(context.scene.janus, "max_bounces", text="Max Bounces")
+        column = self.column()
+        column.prop(context.scene.janus, "max_bounces", text="Max Bounces")
+        column.prop(context.scene.janus, "transparent_max_bounces")
 
 
 class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):

@@ -31,10 +31,10 @@ using Crop = std::optional<std::array<int, 4>>;
 
 RenderSettings make_settings(int width, int height, const Crop& crop, int samples, double seconds,
                              uint32_t seed, int threads, int max_bounces,
-                             const std::string& integrator, const std::string& filter,
-                             float filter_width, float light_paths, float connections,
-                             const std::string& heuristic, bool film_transparent,
-                             bool check_weights) {
+                             int transparent_max_bounces, const std::string& integrator,
+                             const std::string& filter, float filter_width, float light_paths,
+                             float connections, const std::string& heuristic, bool film_transparent,
+                             bool roulette, bool check_weights) {
   RenderSettings s;
   s.width = width;
   s.height = height;
@@ -46,6 +46,7 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
   s.seed = seed;
   s.threads = threads;
   s.max_bounces = max_bounces;
+  s.transparent_max_bounces = transparent_max_bounces;
   s.integrator = from_name(kIntegrators, integrator, "integrator");
   s.filter = from_name(kFilters, filter, "filter");
   s.filter_width = filter_width;
@@ -53,6 +54,7 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
   s.connections = connections;
   s.heuristic = from_name(kHeuristics, heuristic, "heuristic");
   s.film_transparent = film_transparent;
+  s.roulette = roulette;
   s.check_weights = check_weights;
   s.validate();
   return s;
@@ -69,6 +71,7 @@ py::dict to_dict(const RenderSettings& s) {
   d["seed"] = s.seed;
   d["threads"] = s.threads;
   d["max_bounces"] = s.max_bounces;
+  d["transparent_max_bounces"] = s.transparent_max_bounces;
   d["integrator"] = to_name(kIntegrators, s.integrator);
   d["filter"] = to_name(kFilters, s.filter);
   d["filter_width"] = s.filter_width;
@@ -76,6 +79,7 @@ py::dict to_dict(const RenderSettings& s) {
   d["connections"] = s.connections;
   d["heuristic"] = to_name(kHeuristics, s.heuristic);
   d["film_transparent"] = s.film_transparent;
+  d["roulette"] = s.roulette;
   d["check_weights"] = s.check_weights;
   return d;
 }
@@ -87,17 +91,21 @@ void bind_settings(py::module_& m) {
       "What to render of a scene: immutable, checked when made (SceneError names the setting). "
       "crop: (x0, y0, x1, y1) in pixels of the full frame from the bottom left; seconds: time "
       "limit, 0 for none; threads: 0 for all; max_bounces: as in Cycles, 0 is direct light; "
+      "transparent_max_bounces: surfaces passed by alpha or transparency; "
       "integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
       "pixels; light_paths per pixel; connections per camera vertex; heuristic: BALANCE or POWER; "
+      "roulette: False traces every path and every shadow ray to its end (slow); "
       "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
   settings.def(py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
                "crop"_a = py::none(), "samples"_a = d.samples, "seconds"_a = d.seconds,
                "seed"_a = d.seed, "threads"_a = d.threads, "max_bounces"_a = d.max_bounces,
+               "transparent_max_bounces"_a = d.transparent_max_bounces,
                "integrator"_a = to_name(kIntegrators, d.integrator),
                "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
                "light_paths"_a = d.light_paths, "connections"_a = d.connections,
                "heuristic"_a = to_name(kHeuristics, d.heuristic),
-               "film_transparent"_a = d.film_transparent, "check_weights"_a = d.check_weights);
+               "film_transparent"_a = d.film_transparent, "roulette"_a = d.roulette,
+               "check_weights"_a = d.check_weights);
   settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
   settings.def("__repr__", [](const RenderSettings& s) {
     return py::str("RenderSettings(**{!r})").format(to_dict(s));
@@ -163,6 +171,11 @@ py::dict stats(const RenderSession& self) {
   d["paths"] = py::dict("camera"_a = c.camera_paths, "light"_a = c.light_paths);
   d["rays"] = py::dict("camera"_a = c.camera_rays, "light"_a = c.light_rays, "nee"_a = c.nee_rays,
                        "connection"_a = c.connection_rays, "splat"_a = c.splat_rays);
+  // How far connections and other joins came before they were given up, in this order.
+  d["joins"] =
+      py::dict("connections"_a = c.connections, "connections_facing"_a = c.connections_facing,
+               "connections_evaluated"_a = c.connections_evaluated, "nee"_a = c.nee_samples,
+               "splats"_a = c.splats);
   d["light_vertices"] = c.light_vertices;
   d["dropped"] = c.dropped;
   d["weight_error"] = s.weight_error;

@@ -77,6 +77,7 @@ def test_settings_reach_the_core(scene, fake_core):
         "seed": 7,
         "threads": 3,
         "max_bounces": 4,
+        "transparent_max_bounces": 8,
         "integrator": "pt",
         "filter": "GAUSSIAN",
         "filter_width": 2.0,
@@ -94,6 +95,7 @@ def test_defaults(scene, fake_core):
         "samples": 64,
         "seconds": 0.0,
         "max_bounces": 12,
+        "transparent_max_bounces": 8,
         "integrator": "bdpt",
         "threads": 0,
     }

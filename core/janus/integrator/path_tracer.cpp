@@ -133,7 +133,7 @@ class PathTracer final : public PassIntegrator {
         return sum;
       }
       Rgb beta = walk.beta * sample->weight;
-      const float q = survival(beta, 1.0f, walk.edges);
+      const float q = settings_.walk.roulette ? survival(beta, 1.0f, walk.edges) : 1.0f;
       if (is_black(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
         return sum;
       }

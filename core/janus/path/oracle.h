@@ -17,6 +17,7 @@ struct WeightCheck {
   double max_error = 0.0;     // largest |weight - definition|
   double sum_error = 0.0;     // sum of |weight - definition|
   uint64_t inaccurate = 0;    // joins with an error above 1e-4
+  uint64_t degenerate = 0;    // joins left out: an edge too short for single precision
 };
 
 // Traces light path `index` and a camera path through `raster`, joins them in every way, and

@@ -12,6 +12,7 @@ namespace janus {
 struct WalkSettings {
   int max_edges = 14;     // edges of a whole path; Cycles' max_bounces + 2
   int max_crossings = 8;  // of transparent surfaces on a whole path
+  bool roulette = true;
 };
 
 // Light found on the segment after a camera vertex: a path of technique s=0 with `edges` edges.
@@ -37,7 +38,8 @@ struct WalkStep {
 // Scatters at `v` and applies roulette. `start`: throughput 1 of this walk; `eta_scale`: product
 // of the refractions so far. nullopt when the walk ends.
 inline std::optional<WalkStep> scatter(const PathVertex& v, const Mis& mis, Sampler& sampler,
-                                       TransportMode mode, float start, float& eta_scale) {
+                                       TransportMode mode, bool roulette, float start,
+                                       float& eta_scale) {
   const float u_lobe = sampler.next_1d();
   const vec2 u = sampler.next_2d();
   const auto sample = v.bsdf().sample(v.back, u_lobe, u, mode);
@@ -46,7 +48,7 @@ inline std::optional<WalkStep> scatter(const PathVertex& v, const Mis& mis, Samp
   }
   Rgb beta = v.beta * sample->weight;
   eta_scale *= sample->eta_scale;
-  const float q = survival(beta / start, eta_scale, v.edges);
+  const float q = roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
   if (is_black(beta) || !is_finite(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
     return std::nullopt;
   }
@@ -113,7 +115,8 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
       return;
     }
     sampler.start_block(v.edges);
-    const auto step = scatter(v, mis, sampler, TransportMode::Importance, start, eta_scale);
+    const auto step =
+        scatter(v, mis, sampler, TransportMode::Importance, settings.roulette, start, eta_scale);
     if (!step) {
       return;
     }
@@ -209,7 +212,8 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     sampler.start_block(v.edges);
     on_vertex(v, sampler);
 
-    const auto next = scatter(v, mis, sampler, TransportMode::Radiance, 1.0f, eta_scale);
+    const auto next =
+        scatter(v, mis, sampler, TransportMode::Radiance, settings.roulette, 1.0f, eta_scale);
     if (!next) {
       return alpha;
     }

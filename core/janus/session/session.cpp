@@ -66,6 +66,10 @@ void RenderSession::run() {
   IntegratorSettings integrator_settings;
   // Cycles counts bounces between the first surface and the light: 0 leaves camera, surface, light.
   integrator_settings.walk.max_edges = settings_.max_bounces + 2;
+  integrator_settings.walk.max_crossings = settings_.transparent_max_bounces;
+  integrator_settings.walk.roulette = settings_.roulette;
+  integrator_settings.contribution_roulette = settings_.roulette;
+  integrator_settings.only = settings_.technique;
   integrator_settings.heuristic = settings_.heuristic;
   integrator_settings.light_paths = settings_.light_paths;
   integrator_settings.connections = settings_.connections;

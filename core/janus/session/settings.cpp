@@ -25,6 +25,8 @@ void RenderSettings::validate() const {
   require(std::isfinite(seconds) && seconds >= 0.0, "seconds", "must be finite and at least 0");
   require(threads >= 0 && threads <= 1024, "threads", "must be from 0 to 1024");
   require(max_bounces >= 0 && max_bounces <= 1024, "max_bounces", "must be from 0 to 1024");
+  require(transparent_max_bounces >= 0 && transparent_max_bounces <= 1024,
+          "transparent_max_bounces", "must be from 0 to 1024");
   require(std::isfinite(filter_width) && filter_width > 0.0f && filter_width <= 100.0f,
           "filter_width", "must be above 0 and at most 100 pixels");
   require(std::isfinite(light_paths) && light_paths >= 0.0f && light_paths <= 64.0f, "light_paths",

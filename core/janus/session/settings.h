@@ -17,8 +17,9 @@ struct RenderSettings {
   int samples = 64;               // passes
   double seconds = 0.0;           // time limit; 0: none. The first pass always completes
   uint32_t seed = 0;
-  int threads = 0;       // 0: one per hardware thread
-  int max_bounces = 12;  // as in Cycles: 0 is direct light only
+  int threads = 0;                  // 0: one per hardware thread
+  int max_bounces = 12;             // as in Cycles: 0 is direct light only
+  int transparent_max_bounces = 8;  // surfaces that a path passes by alpha or transparency
   IntegratorType integrator = IntegratorType::Bdpt;
   FilterType filter = FilterType::BlackmanHarris;
   float filter_width = 1.5f;  // pixels
@@ -26,7 +27,9 @@ struct RenderSettings {
   float connections = 1.0f;   // per camera vertex
   Heuristic heuristic = Heuristic::Balance;
   bool film_transparent = false;
-  bool check_weights = false;  // debug: IntegratorSettings::check_weights
+  bool roulette = true;                // Russian roulette on walks and on contributions
+  bool check_weights = false;          // debug: IntegratorSettings::check_weights
+  std::optional<Technique> technique;  // debug: bdpt with this technique alone, without weights
   size_t cache_bytes = size_t{256} << 20;
 
   FilmRect rect() const { return crop.value_or(FilmRect{0, 0, width, height}); }

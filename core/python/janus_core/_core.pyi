@@ -52,6 +52,9 @@ class _Stats(TypedDict):
     seconds: float
     paths: dict[Literal["camera", "light"], int]
     rays: dict[Literal["camera", "light", "nee", "connection", "splat"], int]
+    joins: dict[
+        Literal["connections", "connections_facing", "connections_evaluated", "nee", "splats"], int
+    ]
     light_vertices: int
     dropped: int
     weight_error: float
@@ -208,6 +211,7 @@ class RenderSettings:
         seed: int = 0,
         threads: int = 0,
         max_bounces: int = 12,
+        transparent_max_bounces: int = 8,
         integrator: Literal["bdpt", "pt", "lt"] = "bdpt",
         filter: Literal["BLACKMAN_HARRIS", "GAUSSIAN", "BOX"] = "BLACKMAN_HARRIS",
         filter_width: float = 1.5,
@@ -215,6 +219,7 @@ class RenderSettings:
         connections: float = 1.0,
         heuristic: Literal["BALANCE", "POWER"] = "BALANCE",
         film_transparent: bool = False,
+        roulette: bool = True,
         check_weights: bool = False,
     ) -> None: ...
     def to_dict(self) -> dict[str, Any]:
@@ -245,6 +250,9 @@ class RenderSettings:
     def max_bounces(self) -> int:
         """As in Cycles: 0 is direct light only."""
     @property
+    def transparent_max_bounces(self) -> int:
+        """How many surfaces a path may pass by alpha or transparency."""
+    @property
     def integrator(self) -> Literal["bdpt", "pt", "lt"]:
         """Bidirectional path tracing, path tracing, light tracing."""
     @property
@@ -265,6 +273,9 @@ class RenderSettings:
     @property
     def film_transparent(self) -> bool:
         """Whether the world is left out of the picture, with alpha 0 there."""
+    @property
+    def roulette(self) -> bool:
+        """False traces every path and every shadow ray to its end; slow, for tests."""
     @property
     def check_weights(self) -> bool:
         """Debug: compares the MIS weights of sampled paths with their definition; slow."""
@@ -292,7 +303,8 @@ class RenderSession:
     def finish(self) -> None:
         """Waits for the end and raises what went wrong on the render threads, if anything."""
     def stats(self) -> _Stats:
-        """Whole passes (samples), seconds of rendering, paths and rays by kind, light_vertices
+        """Whole passes (samples), seconds of rendering, paths and rays by kind, joins (how far they
+        came before they were given up), light_vertices
         (kept in the cache), dropped (values that were not finite), weight_error (with
         check_weights: the largest difference from the definition)."""
 

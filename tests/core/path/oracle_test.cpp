@@ -96,6 +96,7 @@ WeightCheck check(const Scene& scene, Heuristic heuristic, const SampleCounts& c
     sum.max_error = std::max(sum.max_error, c.max_error);
     sum.sum_error += c.sum_error;
     sum.inaccurate += c.inaccurate;
+    sum.degenerate += c.degenerate;
     for (int k = 0; k < 4; ++k) {
       sum.by_class[k] += c.by_class[k];
     }
@@ -109,6 +110,7 @@ void expect_exact(const WeightCheck& result) {
   EXPECT_LT(result.sum_error, 3e-6 * static_cast<double>(result.paths));
   EXPECT_LT(result.inaccurate, 1 + result.paths / 1000);
   EXPECT_LT(result.max_error, 2e-3);
+  EXPECT_LT(result.degenerate, 1 + result.paths / 100);
 }
 
 class Oracle : public ::testing::TestWithParam<OracleScene> {};
