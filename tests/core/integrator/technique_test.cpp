@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Each technique (s,t) alone, without weights, estimates all light over paths of its length that it
+// can make at all. Here it can make all of them: nothing is specular, the lamp can be hit, and the
+// surfaces are apart from each other, because 1/d^2 has infinite variance where they meet.
+#include "support/pictures.h"
+#include "support/scene_kit.h"
+
+namespace janus::test {
+namespace {
+
+// A floor below, a ceiling above, a wall between them at some distance, seen from the side.
+SceneKit plates() {
+  return SceneKit()
+      .add("floor", plane(4, 4), diffuse(Rgb(0.8f, 0.7f, 0.6f)), translation({0, 0, -1}))
+      .add("ceiling", plane(4, 4), diffuse(Rgb(0.6f, 0.7f, 0.8f)),
+           translation({0.1f, 0, 1.2f}) * rotation({1, 0, 0}, 3.0f))
+      .add("wall", plane(1.2f, 1.2f), diffuse(Rgb(0.7f)),
+           translation({-2.4f, 0.3f, 0}) * rotation({0, 1, 0}, 1.3f))
+      .camera({0, -2.6f, 0.8f}, {0, 0.2f, -0.9f}, 0.7f);
+}
+
+struct LengthCase {
+  std::string name;
+  SceneKit (*make)();
+  bool hittable = true;
+};
+
+const LengthCase kCases[] = {
+    {"area",
+     [] { return plates().light("l", area_light({1.6f, 0, 0.4f}, {0, 0, -0.6f}, 1.0f, 30)); }},
+    {"mesh",
+     [] {
+       return plates().add("lamp", plane(1, 1), emission(Rgb(1, 0.9f, 0.8f), 8),
+                           translation({1.7f, 0.2f, 0.2f}) * rotation({0, 1, 0}, -1.2f));
+     }},
+    {"sphere",
+     [] { return plates().light("l", point_light({1.6f, 0.2f, 0.3f}, 30, 0.4f, false)); }},
+    {"point", [] { return plates().light("l", point_light({1.6f, 0.2f, 0.3f}, 30)); }, false},
+    // Shading normals: the adjoint of the BSDF at every vertex of a light subpath.
+    {"smooth",
+     [] {
+       return plates()
+           .add("ball", ball(0.5f, 10, true), diffuse(Rgb(0.9f)), translation({0.2f, 0, 0}))
+           .light("l", area_light({1.7f, -0.3f, 0.2f}, {0, 0, -0.4f}, 0.8f, 30));
+     }},
+};
+
+std::ostream& operator<<(std::ostream& out, const LengthCase& c) { return out << c.name; }
+
+class SingleTechniques : public ::testing::TestWithParam<LengthCase> {};
+
+TEST_P(SingleTechniques, AgreeForEachPathLength) {
+  const auto scene = GetParam().make().build();
+  const int longest = full() ? 4 : 3;
+  for (int edges = 2; edges <= longest; ++edges) {
+    std::vector<Mean> reference;
+    for (int s = 1; s <= edges; ++s) {
+      RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(48));
+      settings.technique = Technique{s, edges + 1 - s};
+      const auto found = quarters(scene, settings);
+      if (s == 1) {
+        reference = found;
+        continue;
+      }
+      SCOPED_TRACE(::testing::Message() << "s = " << s << ", t = " << edges + 1 - s);
+      expect_agreement(found, reference, 0.05);
+    }
+    RenderSettings hits = small_picture(IntegratorType::Bdpt, samples(400));
+    hits.light_paths = 0.0f;
+    hits.technique = Technique{0, edges + 1};
+    const auto found = quarters(scene, hits);
+    SCOPED_TRACE(::testing::Message() << "s = 0, t = " << edges + 1);
+    if (GetParam().hittable) {
+      expect_agreement(found, reference, 0.06);
+    } else {
+      EXPECT_EQ(found[0].mean(), 0.0);  // nothing hits a point
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SingleTechniques, ::testing::ValuesIn(kCases),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace janus::test
