@@ -7,6 +7,8 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
+#include <atomic>
 #include <cstdlib>
 
 #include "janus/util/error.h"
@@ -32,6 +34,11 @@ bool on_progress(void* user, double /*fraction*/) {
   return !static_cast<BuildState*>(user)->cancel->cancelled();
 }
 
+bool on_memory(void* user, ssize_t bytes, bool /*after*/) {
+  static_cast<std::atomic<ssize_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
+  return true;
+}
+
 RTCRayHit to_embree(const Ray& ray) {
   RTCRayHit query{};
   query.ray.org_x = ray.origin.x;
@@ -52,13 +59,19 @@ RTCRayHit to_embree(const Ray& ray) {
 
 struct Accel::Impl {
   RTCDevice device = nullptr;
-  RTCScene top = nullptr;
+  RTCScene all = nullptr;
+  // The instances by Instance::opaque; null if all are opaque. Top levels of their own rather than
+  // ray masks: Embree 3 is usually built without those, and a mask is tested late.
+  RTCScene opaque = nullptr, transparent = nullptr;
   std::vector<RTCScene> bottom;  // by mesh; null where no instance needs it
   BuildState state;
+  std::atomic<ssize_t> bytes{0};
 
   ~Impl() {
-    if (top) {
-      rtcReleaseScene(top);
+    for (RTCScene scene : {all, opaque, transparent}) {
+      if (scene) {
+        rtcReleaseScene(scene);
+      }
     }
     for (RTCScene scene : bottom) {
       if (scene) {
@@ -70,6 +83,12 @@ struct Accel::Impl {
     }
   }
 
+  RTCScene new_scene() const {
+    RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    return scene;
+  }
+
   void commit(RTCScene scene) {
     rtcSetSceneProgressMonitorFunction(scene, on_progress, &state);
     rtcCommitScene(scene);
@@ -79,11 +98,40 @@ struct Accel::Impl {
       throw Error("building the ray acceleration structure failed: " + state.error);
     }
   }
+
+  std::optional<SurfaceInteraction> intersect(const Accel& accel, RTCScene scene,
+                                              const Ray& ray) const {
+    RTCRayHit query = to_embree(ray);
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(scene, &query, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &query);
+#endif
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+      return std::nullopt;
+    }
+    return accel.surface_point(query.hit.instID[0], query.hit.primID,
+                               vec2(query.hit.u, query.hit.v));
+  }
+
+  bool occluded(RTCScene scene, vec3 a, vec3 b) const {
+    RTCRay query = to_embree(Ray{a, b - a, 1.0f - 0x1p-17f}).ray;
+#if RTC_VERSION_MAJOR >= 4
+    rtcOccluded1(scene, &query, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &query);
+#endif
+    return query.tfar < 0.0f;
+  }
 };
 
 Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
              const CancelToken& cancel)
-    : impl_(std::make_unique<Impl>()), meshes_(meshes), instances_(instances) {
+    : impl_(std::make_unique<Impl>()), instances_(instances) {
   impl_->state.cancel = &cancel;
   // Lets a thread sanitizer run keep Embree's own threads out of the picture.
   impl_->device = rtcNewDevice(std::getenv("JANUS_EMBREE_CONFIG"));
@@ -92,20 +140,25 @@ Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& insta
                 std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
   }
   rtcSetDeviceErrorFunction(impl_->device, on_error, &impl_->state);
+  rtcSetDeviceMemoryMonitorFunction(impl_->device, on_memory, &impl_->bytes);
 
   impl_->bottom.resize(meshes.size(), nullptr);
-  impl_->top = rtcNewScene(impl_->device);
-  rtcSetSceneFlags(impl_->top, RTC_SCENE_FLAG_ROBUST);
+  impl_->all = impl_->new_scene();
+  if (!std::all_of(instances.begin(), instances.end(), [](const auto& i) { return i.opaque; })) {
+    impl_->opaque = impl_->new_scene();
+    impl_->transparent = impl_->new_scene();
+  }
+  placements_.reserve(instances.size());
   for (size_t i = 0; i < instances.size(); ++i) {
     const Instance& instance = instances[i];
     const Mesh& mesh = meshes[instance.mesh];
+    placements_.emplace_back(mesh, instance);
     if (mesh.triangles().empty()) {
       continue;
     }
     RTCScene& bottom = impl_->bottom[instance.mesh];
     if (!bottom) {
-      bottom = rtcNewScene(impl_->device);
-      rtcSetSceneFlags(bottom, RTC_SCENE_FLAG_ROBUST);
+      bottom = impl_->new_scene();
       RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
       rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                  mesh.positions().data(), 0, sizeof(vec3),
@@ -122,16 +175,24 @@ Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& insta
     rtcSetGeometryInstancedScene(geometry, bottom);
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &instance.to_world);
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(impl_->top, geometry, static_cast<unsigned>(i));
+    rtcAttachGeometryByID(impl_->all, geometry, static_cast<unsigned>(i));
+    if (impl_->transparent) {
+      rtcAttachGeometryByID(instance.opaque ? impl_->opaque : impl_->transparent, geometry,
+                            static_cast<unsigned>(i));
+    }
     rtcReleaseGeometry(geometry);
     if (i % 1024 == 0) {
       cancel.throw_if_cancelled();
     }
   }
-  impl_->commit(impl_->top);
+  for (RTCScene scene : {impl_->all, impl_->opaque, impl_->transparent}) {
+    if (scene) {
+      impl_->commit(scene);
+    }
+  }
 
   RTCBounds b;
-  rtcGetSceneBounds(impl_->top, &b);
+  rtcGetSceneBounds(impl_->all, &b);
   if (b.lower_x <= b.upper_x) {
     bounds_.extend(vec3(b.lower_x, b.lower_y, b.lower_z));
     bounds_.extend(vec3(b.upper_x, b.upper_y, b.upper_z));
@@ -141,70 +202,29 @@ Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& insta
 Accel::~Accel() = default;
 
 std::optional<SurfaceInteraction> Accel::intersect(const Ray& ray) const {
-  RTCRayHit query = to_embree(ray);
-#if RTC_VERSION_MAJOR >= 4
-  rtcIntersect1(impl_->top, &query, nullptr);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(impl_->top, &context, &query);
-#endif
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+  return impl_->intersect(*this, impl_->all, ray);
+}
+
+bool Accel::occluded(vec3 a, vec3 b) const { return impl_->occluded(impl_->all, a, b); }
+
+bool Accel::occluded_opaque(vec3 a, vec3 b) const {
+  return impl_->occluded(impl_->transparent ? impl_->opaque : impl_->all, a, b);
+}
+
+std::optional<SurfaceInteraction> Accel::intersect_transparent(const Ray& ray) const {
+  if (!impl_->transparent) {
     return std::nullopt;
   }
-  return surface_point(query.hit.instID[0], query.hit.primID, vec2(query.hit.u, query.hit.v));
+  return impl_->intersect(*this, impl_->transparent, ray);
 }
 
-bool Accel::occluded(vec3 a, vec3 b) const {
-  const vec3 d = b - a;
-  RTCRay query = to_embree(Ray{a, d, 1.0f}).ray;
-#if RTC_VERSION_MAJOR >= 4
-  rtcOccluded1(impl_->top, &query, nullptr);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(impl_->top, &context, &query);
-#endif
-  return query.tfar < 0.0f;
+SurfaceInteraction Accel::surface_point(uint32_t instance, uint32_t primitive, vec2 b) const {
+  SurfaceInteraction point = placements_[instance].surface_point(primitive, b);
+  point.instance = instance;
+  return point;
 }
 
-SurfaceInteraction Accel::surface_point(uint32_t instance_index, uint32_t primitive, vec2 b) const {
-  const Instance& instance = instances_[instance_index];
-  const Mesh& mesh = meshes_[instance.mesh];
-  const Mesh::Triangle& triangle = mesh.triangles()[primitive];
-  const mat3 linear(instance.to_world);
-  const vec3 translation(instance.to_world[3]);
-  const vec3 v0 = mesh.positions()[triangle.v[0]];
-  const vec3 v1 = mesh.positions()[triangle.v[1]];
-  const vec3 v2 = mesh.positions()[triangle.v[2]];
-  const float b0 = 1.0f - b.x - b.y;
-
-  SurfaceInteraction hit;
-  hit.instance = instance_index;
-  hit.primitive = primitive;
-  hit.material = instance.material(triangle.material);
-  // From the barycentric coordinates, not along the ray: the error does not grow with distance.
-  hit.p = linear * (b0 * v0 + b.x * v1 + b.y * v2) + translation;
-  hit.ng = normalize(instance.normal_to_world * cross(v1 - v0, v2 - v0));
-  hit.ns = hit.ng;
-  if (mesh.smooth()) {
-    const vec3 n = b0 * mesh.normal(triangle.corner[0]) + b.x * mesh.normal(triangle.corner[1]) +
-                   b.y * mesh.normal(triangle.corner[2]);
-    const vec3 ns = instance.normal_to_world * n;
-    const float length = glm::length(ns);
-    // Flat faces of a smooth mesh carry the face normal in every corner; take Ng itself there.
-    if (length > 0.0f && std::isfinite(length)) {
-      const vec3 unit = ns / length;
-      hit.ns = dot(unit, hit.ng) > 1.0f - 1e-7f ? hit.ng : unit;
-    }
-  }
-  // Bounds the rounding of the point, of the transform and of Embree's edge tests, all of which
-  // scale with the coordinates of the whole triangle rather than of the point.
-  const vec3 w0 = linear * v0, w1 = linear * v1, w2 = linear * v2;
-  const vec3 extent = glm::max(glm::max(glm::abs(w0), glm::abs(w1)), glm::abs(w2));
-  hit.offset = 0x1p-21f * max_component(glm::max(extent, glm::abs(translation)));
-  return hit;
-}
+size_t Accel::bytes() const { return static_cast<size_t>(impl_->bytes.load()); }
 
 std::string Accel::embree_version() { return RTC_VERSION_STRING; }
 

@@ -10,6 +10,7 @@
 
 #include "janus/geometry/interaction.h"
 #include "janus/geometry/mesh.h"
+#include "janus/geometry/placement.h"
 #include "janus/util/cancel.h"
 
 namespace janus {
@@ -27,8 +28,15 @@ class Accel {
   // The nearest surface within (0, ray.t_max).
   std::optional<SurfaceInteraction> intersect(const Ray& ray) const;
 
-  // True if something lies on the open segment from `a` to `b` (points already off surfaces).
+  // True if something lies on the open segment from `a` to `b` (points already off surfaces). The
+  // last 2^-17 of it does not count: a surface at `b` seen from afar is known no better.
   bool occluded(vec3 a, vec3 b) const;
+
+  // The same among the instances with `opaque`, and the nearest surface among the others: together
+  // they are what a shadow ray meets that some surfaces let through. Both cost nothing where all
+  // instances are opaque.
+  bool occluded_opaque(vec3 a, vec3 b) const;
+  std::optional<SurfaceInteraction> intersect_transparent(const Ray& ray) const;
 
   // The surface at barycentric coordinates (b1, b2) of a triangle; `offset` and normals as from a
   // hit. Used by light sampling, so that both ends of a shadow ray follow one rule.
@@ -37,13 +45,16 @@ class Accel {
   // World bounds of everything.
   const Bounds& bounds() const { return bounds_; }
 
+  // Bytes that Embree holds. Instances of one mesh share its hierarchy.
+  size_t bytes() const;
+
   static std::string embree_version();
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
-  const std::vector<Mesh>& meshes_;
   const std::vector<Instance>& instances_;
+  std::vector<Placement> placements_;  // by instance
   Bounds bounds_;
 };
 

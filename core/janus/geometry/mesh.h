@@ -29,6 +29,7 @@ class Mesh {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   bool smooth() const { return !normals_.empty(); }
   vec3 normal(uint32_t corner) const { return normals_[corner]; }
+  const std::vector<vec3>& normals() const { return normals_; }  // per corner; empty: flat
 
  private:
   std::string name_;
@@ -44,6 +45,7 @@ struct Instance {
   mat3 normal_to_world = mat3(1.0f);  // inverse transpose
   std::vector<uint32_t> materials;    // program index by slot; never empty
   int light = -1;                     // index of the mesh light, or -1
+  bool opaque = true;                 // false: rays may pass through parts of it (see Accel)
   std::string name;
 
   uint32_t material(uint32_t slot) const {

@@ -108,6 +108,57 @@ TEST(Accel, NormalsPointOutwardsUnderAnyTransform) {
   }
 }
 
+// Instances that are not opaque: rays can ask for them alone, and for all others alone.
+TEST(Accel, OpaqueAndTransparentInstances) {
+  SceneKit kit;
+  for (int i = 0; i < 4; ++i) {
+    kit.add(std::string(1, static_cast<char>('a' + i)), plane(2, 2), {},
+            translation({0, 0, static_cast<float>(i)}));
+  }
+  const auto scene = kit.build();
+  const auto down = [](float z) { return Ray{vec3(0.1f, 0.2f, z), vec3(0, 0, -1)}; };
+  EXPECT_FALSE(scene->accel->intersect_transparent(down(9)));
+  EXPECT_TRUE(scene->accel->occluded_opaque(vec3(0.1f, 0, 2.5f), vec3(0.1f, 0, 1.5f)));
+
+  std::vector<Instance> instances = scene->instances;
+  instances[1].opaque = instances[2].opaque = false;
+  const Accel accel(scene->meshes, instances, CancelToken());
+  EXPECT_EQ(accel.intersect_transparent(down(9))->instance, 2u);
+  EXPECT_EQ(accel.intersect_transparent(down(1.5f))->instance, 1u);
+  EXPECT_FALSE(accel.intersect_transparent(down(0.5f)));
+  Ray capped = down(9);
+  capped.t_max = 6.9f;
+  EXPECT_FALSE(accel.intersect_transparent(capped));
+  EXPECT_EQ(accel.intersect(down(9))->instance, 3u);
+  for (int i = 0; i < 4; ++i) {
+    const vec3 above(0.1f, 0.2f, i + 0.5f), below(0.1f, 0.2f, i - 0.5f);
+    EXPECT_TRUE(accel.occluded(above, below));
+    EXPECT_EQ(accel.occluded_opaque(above, below), i == 0 || i == 3);
+  }
+}
+
+TEST(Accel, InstancesShareTheirMesh) {
+  Diagnostics diagnostics;
+  const std::vector<Mesh> meshes{Mesh("ball", ball(1, 64, true), diagnostics)};
+  const auto bytes = [&](int count) {
+    std::vector<Instance> instances(count);
+    for (int i = 0; i < count; ++i) {
+      instances[i].to_world = translation({3.0f * i, 0, 0}) * scaling({1, 1 + 1e-3f * i, 1});
+      instances[i].normal_to_world = glm::transpose(glm::inverse(mat3(instances[i].to_world)));
+      instances[i].materials = {0};
+    }
+    const Accel accel(meshes, instances, CancelToken());
+    for (const int i : {0, count / 2, count - 1}) {
+      const auto hit = accel.intersect(Ray{vec3(3.0f * i, 0, 9), vec3(0, 0, -1)});
+      EXPECT_TRUE(hit && hit->instance == static_cast<uint32_t>(i));
+    }
+    return accel.bytes();
+  };
+  const size_t one = bytes(1);
+  EXPECT_GT(one, meshes[0].triangles().size() * 32);
+  EXPECT_LT((bytes(5000) - one) / 4999, 2048u);
+}
+
 // Walks must neither meet the surface that they leave nor slip through it, for tiny and huge
 // objects, near the origin and a thousand times their size away from it.
 class Offsets : public ::testing::TestWithParam<std::tuple<float, float, bool>> {
@@ -141,8 +192,8 @@ TEST_P(Offsets, ConvexBodyNeitherBlocksItselfNorLeaks) {
     blocked += scene->intersect(Ray{offset_origin(p.p, p.ng, p.offset, d), d}).has_value();
     leaked += !scene->intersect(Ray{offset_origin(p.p, p.ng, p.offset, -d), -d}).has_value();
   }
-  EXPECT_LE(blocked, 2);
-  EXPECT_LE(leaked, 2);
+  EXPECT_EQ(blocked, 0);
+  EXPECT_EQ(leaked, 0);
 }
 
 TEST_P(Offsets, PointsInARoomSeeEachOther) {
@@ -160,7 +211,7 @@ TEST_P(Offsets, PointsInARoomSeeEachOther) {
                                offset_origin(b.p, b.ng, b.offset, -d));
   }
   EXPECT_GT(compared, 10000);
-  EXPECT_LE(blocked, compared / 1000);
+  EXPECT_LE(blocked, compared / 5000);  // next to an edge a point may round behind a wall
 }
 
 INSTANTIATE_TEST_SUITE_P(Scales, Offsets,

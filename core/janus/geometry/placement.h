@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "janus/geometry/interaction.h"
+#include "janus/geometry/mesh.h"
+
+namespace janus {
+
+// An instance as the ray queries see it: what a surface point needs, computed once and kept close
+// together.
+class Placement {
+ public:
+  // Mesh and instance must outlive this.
+  Placement(const Mesh& mesh, const Instance& instance);
+
+  // The surface at barycentric coordinates (b1, b2) of a triangle; `instance` stays unset.
+  SurfaceInteraction surface_point(uint32_t primitive, vec2 b) const;
+
+ private:
+  mat3 linear_;
+  vec3 translation_;
+  mat3 normal_;  // inverse transpose
+  const Mesh::Triangle* triangles_;
+  const vec3* positions_;
+  const vec3* normals_;  // null: flat
+  const Instance* instance_;
+  // Bounds of rounding, in units of it, for a point p of object space: forward_ |p| on the way to
+  // the world, back_ |p| + back_translation_ on the way back; determinant_error_: relative.
+  mat3 forward_, back_;
+  vec3 back_translation_;
+  float determinant_error_;
+};
+
+}  // namespace janus
