@@ -23,14 +23,15 @@ class AreaLight final : public Light {
     const float parallelogram = 4.0f * glm::length(cross(half_u_, half_v_));
     area_ = ellipse_ ? 0.25f * kPi * parallelogram : parallelogram;
 
-    const float half_spread = 0.5f * std::clamp(desc.spread, 0.0f, kPi);
-    full_spread_ = half_spread >= 0.5f * kPi;
-    tan_spread_ = full_spread_ ? kInfinity : std::tan(half_spread);
-    sin2_spread_ = full_spread_ ? 1.0f : sqr(std::sin(half_spread));
+    half_spread_ = 0.5f * std::clamp(desc.spread, 0.0f, kPi);
+    full_spread_ = half_spread_ >= 0.5f * kPi;
+    const vec2 spread = cos_sin(half_spread_);
+    tan_spread_ = full_spread_ ? kInfinity : spread.y / spread.x;
+    sin2_spread_ = full_spread_ ? 1.0f : sqr(spread.y);
     // Cycles' soft box: radiance falls as 1 - tan(theta) / tan(half_spread), normalized so that
     // the power does not change; a series where the difference would cancel.
-    spread_scale_ = half_spread > 0.05f ? 1.0f / (tan_spread_ - half_spread)
-                                        : 3.0f / (sqr(half_spread) * half_spread);
+    spread_scale_ = half_spread_ > 0.05f ? 1.0f / (tan_spread_ - half_spread_)
+                                         : 3.0f / (sqr(half_spread_) * half_spread_);
     radiance_ = lamp_power(desc, strength) / (kPi * (desc.normalize ? area_ : 1.0f));
     name = desc.name;
     visible_camera = desc.visible_camera;
@@ -39,6 +40,20 @@ class AreaLight final : public Light {
   float power() const override { return luminance(radiance_) * kPi * area_; }
 
   bool hittable() const override { return true; }
+
+  std::vector<Emitter> emitters() const override {
+    Emitter e;
+    e.strength = luminance(radiance_) * attenuation(1.0f) * area_;
+    for (const float u : {-1.0f, 1.0f}) {
+      for (const float v : {-1.0f, 1.0f}) {
+        e.bounds.extend(center_ + u * half_u_ + v * half_v_);
+      }
+    }
+    e.axis = normal_;
+    e.theta_o = 0.0f;
+    e.theta_e = full_spread_ ? 0.5f * kPi : half_spread_;
+    return {e};
+  }
 
   std::optional<EmissionSample> sample_emission(vec2 u_position, vec2 u_direction) const override {
     const vec3 local = square_to_cosine_cone(u_direction, sin2_spread_);
@@ -120,7 +135,7 @@ class AreaLight final : public Light {
   vec3 center_, half_u_, half_v_, normal_;
   Rgb radiance_;
   float area_;
-  float tan_spread_, sin2_spread_, spread_scale_;
+  float half_spread_, tan_spread_, sin2_spread_, spread_scale_;
   bool ellipse_, full_spread_;
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "janus/light/infinite.h"
 #include "janus/light/lamps.h"
-#include "janus/math/frame.h"
-#include "janus/math/warp.h"
 
 namespace janus {
 
@@ -11,26 +10,24 @@ namespace {
 
 // A world of one colour. Directions sampled by the surfaces find it as well as any other strategy
 // could, so it is left out of next event estimation.
-class ConstantEnvironment final : public Light {
+class ConstantEnvironment final : public InfiniteLight {
  public:
-  ConstantEnvironment(Rgb radiance, vec3 center, float radius)
-      : radiance_(radiance), center_(center), radius_(radius) {
+  ConstantEnvironment(Rgb radiance, const Sphere& scene)
+      : InfiniteLight(scene), radiance_(radiance) {
     name = "World";
   }
 
-  float power() const override { return luminance(radiance_) * 4.0f * kPi * kPi * sqr(radius_); }
+  float power() const override { return luminance(radiance_) * 4.0f * kPi * scene_.area(); }
 
   bool hittable() const override { return true; }
-  bool infinite() const override { return true; }
-  std::vector<Emitter> emitters() const override { return {Emitter{}}; }
+  std::vector<Emitter> emitters() const override {
+    Emitter e;
+    e.infinite = true;
+    return {e};
+  }
 
-  // A direction, then a point on the disk that covers the scene's bounding sphere.
   std::optional<EmissionSample> sample_emission(vec2 u_position, vec2 u_direction) const override {
-    const vec3 direction = square_to_sphere(u_direction);
-    const vec2 disk = radius_ * square_to_disk(u_position);
-    const Frame frame(direction);
-    const vec3 origin = center_ + disk.x * frame.s + disk.y * frame.t - 1.01f * radius_ * direction;
-    return EmissionSample{origin, direction, radiance_ / ray_density().value, ray_density()};
+    return emit(square_to_sphere(u_direction), u_position, radiance_, 0.25f * kInvPi);
   }
 
   std::optional<IlluminationSample> sample_illumination(vec3 /*receiver*/, uint32_t /*primitive*/,
@@ -47,21 +44,82 @@ class ConstantEnvironment final : public Light {
     if (ray.t_max < kInfinity) {
       return std::nullopt;
     }
-    return LightHit{kInfinity, radiance_, 0.0f, ray_density(), kInfinity};
+    return LightHit{kInfinity, radiance_, 0.0f, density(0.25f * kInvPi), kInfinity};
   }
 
  private:
-  RayDensity ray_density() const { return {0.25f * kInvPi / (kPi * sqr(radius_)), false}; }
-
   Rgb radiance_;
-  vec3 center_;
-  float radius_;
+};
+
+// A world of a picture. Emission and illumination draw from the same directions.
+class ImageEnvironment final : public InfiniteLight {
+ public:
+  ImageEnvironment(EnvironmentMap map, const Sphere& scene)
+      : InfiniteLight(scene), map_(std::move(map)) {
+    name = "World";
+  }
+
+  float power() const override { return map_.total() * scene_.area(); }
+
+  bool hittable() const override { return true; }
+
+  std::vector<Emitter> emitters() const override {
+    Emitter e;
+    e.infinite = true;
+    e.strength = 0.5f * map_.total();  // a surface sees half of the directions
+    return {e};
+  }
+
+  std::optional<EmissionSample> sample_emission(vec2 u_position, vec2 u_direction) const override {
+    const vec3 to_light = map_.sample(u_direction);
+    const float pdf = map_.pdf_solid(to_light);
+    const Rgb radiance = map_.radiance(to_light);
+    if (!(pdf > 0.0f) || is_black(radiance)) {
+      return std::nullopt;
+    }
+    return emit(-to_light, u_position, radiance, pdf);
+  }
+
+  std::optional<IlluminationSample> sample_illumination(vec3 receiver, uint32_t /*primitive*/,
+                                                        vec2 u) const override {
+    const vec3 wi = map_.sample(u);
+    const float pdf = map_.pdf_solid(wi);
+    const Rgb radiance = map_.radiance(wi);
+    if (!(pdf > 0.0f) || is_black(radiance)) {
+      return std::nullopt;
+    }
+    return illuminate(receiver, wi, radiance, pdf, density(pdf));
+  }
+
+  float pdf_illumination(const EmissionSample& sample, vec3 /*endpoint*/,
+                         vec3 /*receiver*/) const override {
+    return map_.pdf_solid(-sample.direction);
+  }
+
+  std::optional<LightHit> intersect(const Ray& ray) const override {
+    if (ray.t_max < kInfinity) {
+      return std::nullopt;
+    }
+    const Rgb radiance = map_.radiance(ray.direction);
+    if (is_black(radiance)) {
+      return std::nullopt;
+    }
+    const float pdf = map_.pdf_solid(ray.direction);
+    return LightHit{kInfinity, radiance, pdf, density(pdf), kInfinity};
+  }
+
+ private:
+  EnvironmentMap map_;
 };
 
 }  // namespace
 
-std::unique_ptr<Light> make_environment_light(Rgb radiance, vec3 center, float radius) {
-  return std::make_unique<ConstantEnvironment>(radiance, center, std::max(radius, 1e-3f));
+std::unique_ptr<Light> make_environment_light(Rgb radiance, const Sphere& scene) {
+  return std::make_unique<ConstantEnvironment>(radiance, scene);
+}
+
+std::unique_ptr<Light> make_environment_light(EnvironmentMap map, const Sphere& scene) {
+  return std::make_unique<ImageEnvironment>(std::move(map), scene);
 }
 
 }  // namespace janus

@@ -5,17 +5,29 @@
 
 #include <memory>
 
+#include "janus/light/environment_map.h"
 #include "janus/light/light.h"
 #include "janus/scene/description.h"
 
 namespace janus {
 
 // `strength` multiplies the light's colour (its node tree; white without one).
-std::unique_ptr<Light> make_point_light(const LightDesc& desc, Rgb strength);
+// Point and spot lights. `inside`: surfaces lie within its radius.
+std::unique_ptr<Light> make_point_light(const LightDesc& desc, Rgb strength, bool inside = false);
 std::unique_ptr<Light> make_area_light(const LightDesc& desc, Rgb strength);
 
-// A world of constant radiance around a scene with the given bounding sphere.
-std::unique_ptr<Light> make_environment_light(Rgb radiance, vec3 center, float radius);
+// Where the surfaces of a scene are: infinite lights send their rays through a disk around it.
+struct Sphere {
+  vec3 center;
+  float radius;  // > 0
+
+  float area() const { return kPi * sqr(radius); }  // of the disk
+};
+std::unique_ptr<Light> make_sun_light(const LightDesc& desc, Rgb strength, const Sphere& scene);
+
+// A world of constant radiance, or of a picture.
+std::unique_ptr<Light> make_environment_light(Rgb radiance, const Sphere& scene);
+std::unique_ptr<Light> make_environment_light(EnvironmentMap map, const Sphere& scene);
 
 // Colour times power of a lamp, in watts.
 inline Rgb lamp_power(const LightDesc& desc, Rgb strength) {

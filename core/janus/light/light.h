@@ -65,9 +65,19 @@ struct LightHit {
   uint32_t primitive = 0;
 };
 
-// What light selection knows of an emitter: a lamp, or one triangle of a mesh light.
+// What light selection knows of an emitter: a lamp, or one triangle of a mesh light. The bounds are
+// conservative: nothing shines outside of them.
 struct Emitter {
-  float power = 0.0f;  // watts, luminance; 0: never chosen
+  // Radiant intensity in the brightest direction, W/sr; infinite lights: irradiance of a surface
+  // that faces them, W/m^2. Luminance; 0: never chosen.
+  float strength = 0.0f;
+  Bounds bounds;
+  // Light leaves within theta_o + theta_e of an axis, and falls with the cosine beyond theta_o
+  // (Conty Estevez & Kulla 2018). Infinite lights: light comes from within theta_o of the axis.
+  vec3 axis = vec3(0.0f, 0.0f, 1.0f);
+  float theta_o = kPi, theta_e = 0.5f * kPi;
+  bool two_sided = false;  // likewise around the opposite axis
+  bool infinite = false;
 };
 
 class Light {
@@ -94,7 +104,7 @@ class Light {
 
   // The emitters that next event estimation chooses from: one for a lamp, one per primitive for a
   // mesh light.
-  virtual std::vector<Emitter> emitters() const { return {Emitter{power()}}; }
+  virtual std::vector<Emitter> emitters() const = 0;
 
   // A point of emitter `primitive` for `receiver`.
   virtual std::optional<IlluminationSample> sample_illumination(vec3 receiver, uint32_t primitive,

@@ -33,10 +33,20 @@ MeshLight::Point MeshLight::point(uint32_t triangle, vec2 u) const {
 }
 
 std::vector<Emitter> MeshLight::emitters() const {
-  std::vector<Emitter> result;
-  for (size_t i = 0; i < pdf_area_.size(); ++i) {
-    const bool shines = pdf_area_[i] > 0.0f;
-    result.push_back({shines ? 2.0f * kPi * luminance(radiance_[i]) / pdf_area_[i] : 0.0f});
+  std::vector<Emitter> result(pdf_area_.size());
+  for (size_t i = 0; i < result.size(); ++i) {
+    if (!(pdf_area_[i] > 0.0f)) {
+      continue;
+    }
+    Emitter& e = result[i];
+    e.strength = luminance(radiance_[i]) / pdf_area_[i];
+    for (const vec2 b : {vec2(0, 0), vec2(1, 0), vec2(0, 1)}) {
+      const auto surface = accel_.surface_point(instance_, static_cast<uint32_t>(i), b);
+      e.bounds.extend(surface.p);
+      e.axis = surface.ng;
+    }
+    e.theta_o = 0.0f;
+    e.two_sided = true;
   }
   return result;
 }

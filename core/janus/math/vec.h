@@ -51,6 +51,10 @@ struct Bounds {
     lower = glm::min(lower, p);
     upper = glm::max(upper, p);
   }
+  void extend(const Bounds& b) {
+    lower = glm::min(lower, b.lower);
+    upper = glm::max(upper, b.upper);
+  }
   bool empty() const { return !(lower.x <= upper.x); }
   vec3 center() const { return empty() ? vec3(0.0f) : 0.5f * (lower + upper); }
   float radius() const { return empty() ? 0.0f : 0.5f * glm::length(upper - lower); }

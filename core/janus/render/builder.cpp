@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "janus/light/lamps.h"
+#include "janus/render/world.h"
 #include "janus/shading/compiler.h"
 #include "janus/util/error.h"
 
@@ -107,8 +108,14 @@ class Commit {
     }
   }
 
-  void add_world(const WorldDesc& world) {
+  void add_world(const WorldDesc& world, const std::map<std::string, ImageDesc>& images) {
     if (!world.graph) {
+      return;
+    }
+    if (auto map = compile_world_map(world, images, scene_.diagnostics)) {
+      if (!map->black()) {
+        add_light(make_environment_light(std::move(*map), surroundings()));
+      }
       return;
     }
     const Program program = compile(*world.graph, world.name, scene_.diagnostics);
@@ -117,8 +124,7 @@ class Commit {
           {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
     }
     if (!is_black(program.emission)) {
-      const Bounds& bounds = scene_.accel->bounds();
-      add_light(make_environment_light(program.emission, bounds.center(), bounds.radius()));
+      add_light(make_environment_light(program.emission, surroundings()));
     }
   }
 
@@ -167,33 +173,90 @@ class Commit {
     }
     switch (lamp.type) {
       case LightType::Point:
-        add_light(make_point_light(lamp, strength));
+        add_point(lamp, strength);
         break;
-      case LightType::Area: {
-        const bool two_sizes =
-            lamp.shape == AreaShape::Rectangle || lamp.shape == AreaShape::Ellipse;
-        const vec3 u = lamp.size * vec3(lamp.transform[0]);
-        const vec3 v = (two_sizes ? lamp.size_y : lamp.size) * vec3(lamp.transform[1]);
-        const float area = glm::length(cross(u, v));
-        const float volume = glm::determinant(mat3(lamp.transform));
-        if (!(area > 0.0f) || !std::isfinite(area) || !std::isfinite(volume) || volume == 0.0f) {
-          warn(lamp.name, "an area light without an area does not shine; it is left out");
-          return;
-        }
-        if (lamp.spread < kMinSpread) {
-          warn(lamp.name, "a spread below 0.1 degrees is not supported; 0.1 is used");
-          lamp.spread = kMinSpread;
-        }
-        add_light(make_area_light(lamp, strength));
-        break;
-      }
       case LightType::Spot:
-        warn(lamp.name, "spot lights are not supported yet; the light is left out");
+        add_spot(lamp, strength);
+        break;
+      case LightType::Area:
+        add_area(lamp, strength);
         break;
       case LightType::Sun:
-        warn(lamp.name, "sun lights are not supported yet; the light is left out");
+        add_sun(lamp, strength);
         break;
     }
+  }
+
+  void add_point(const LightDesc& lamp, Rgb strength) {
+    if (!std::isfinite(lamp.radius)) {
+      warn(lamp.name, "its radius is not finite; the light is left out");
+      return;
+    }
+    const bool sphere = !lamp.soft_falloff && lamp.radius > 0.0f;
+    add_light(make_point_light(lamp, strength, sphere && surfaces_near(lamp)));
+  }
+
+  void add_spot(const LightDesc& lamp, Rgb strength) {
+    const float volume = glm::determinant(mat3(lamp.transform));
+    if (volume == 0.0f || !std::isfinite(volume)) {
+      warn(lamp.name, "a spot light that is scaled to nothing does not shine; it is left out");
+      return;
+    }
+    if (!(lamp.spot_size > 0.0f) || !std::isfinite(lamp.spot_blend)) {
+      warn(lamp.name, "a spot light without a beam does not shine; it is left out");
+      return;
+    }
+    add_point(lamp, strength);
+  }
+
+  void add_area(LightDesc& lamp, Rgb strength) {
+    const bool two_sizes = lamp.shape == AreaShape::Rectangle || lamp.shape == AreaShape::Ellipse;
+    const vec3 u = lamp.size * vec3(lamp.transform[0]);
+    const vec3 v = (two_sizes ? lamp.size_y : lamp.size) * vec3(lamp.transform[1]);
+    const float area = glm::length(cross(u, v));
+    const float volume = glm::determinant(mat3(lamp.transform));
+    if (!(area > 0.0f) || !std::isfinite(area) || !std::isfinite(volume) || volume == 0.0f) {
+      warn(lamp.name, "an area light without an area does not shine; it is left out");
+      return;
+    }
+    if (!(lamp.spread >= kMinSpread)) {
+      warn(lamp.name, "a spread below 0.1 degrees is not supported; 0.1 is used");
+      lamp.spread = kMinSpread;
+    }
+    add_light(make_area_light(lamp, strength));
+  }
+
+  void add_sun(const LightDesc& lamp, Rgb strength) {
+    const float length = glm::length(vec3(lamp.transform[2]));
+    if (!(length > 0.0f) || !std::isfinite(length) || !std::isfinite(lamp.angle)) {
+      warn(lamp.name, "its direction or its angle is not defined; the light is left out");
+      return;
+    }
+    add_light(make_sun_light(lamp, strength, surroundings()));
+  }
+
+  // Around all surfaces.
+  Sphere surroundings() const {
+    const Bounds& bounds = scene_.accel->bounds();
+    return {bounds.center(), std::max(bounds.radius(), 1e-3f)};
+  }
+
+  // Can a surface lie within the lamp's radius?
+  bool surfaces_near(const LightDesc& lamp) const {
+    const vec3 center(lamp.transform[3]);
+    for (const Instance& instance : scene_.instances) {
+      const Mesh& mesh = scene_.meshes[instance.mesh];
+      for (const Mesh::Triangle& triangle : mesh.triangles()) {
+        Bounds bounds;
+        for (const uint32_t v : triangle.v) {
+          bounds.extend(vec3(instance.to_world * vec4(mesh.positions()[v], 1.0f)));
+        }
+        if (length2(glm::clamp(center, bounds.lower, bounds.upper) - center) < sqr(lamp.radius)) {
+          return true;
+        }
+      }
+    }
+    return false;
   }
 
   static constexpr float kMinSpread = 0.1f * kPi / 180.0f;
@@ -208,6 +271,7 @@ class Commit {
 void SceneBuilder::remove(const std::string& key) {
   meshes_.erase(key);
   materials_.erase(key);
+  images_.erase(key);
   instances_.erase(key);
   lights_.erase(key);
 }
@@ -235,7 +299,7 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   commit.add_mesh_lights();
   commit.add_lamps(lights_);
   if (world_) {
-    commit.add_world(*world_);
+    commit.add_world(*world_, images_);
   }
   commit.finish();
   return scene;

@@ -19,6 +19,7 @@ class SceneBuilder {
   void set_material(const std::string& key, MaterialDesc desc) {
     materials_[key] = std::move(desc);
   }
+  void set_image(const std::string& key, ImageDesc desc) { images_[key] = std::move(desc); }
   void set_instance(const std::string& key, InstanceDesc desc) {
     instances_[key] = std::move(desc);
   }
@@ -35,6 +36,7 @@ class SceneBuilder {
   // Ordered maps: the scene, and so the image, does not depend on the order of the calls.
   std::map<std::string, MeshDesc> meshes_;
   std::map<std::string, MaterialDesc> materials_;
+  std::map<std::string, ImageDesc> images_;
   std::map<std::string, InstanceDesc> instances_;
   std::map<std::string, LightDesc> lights_;
   std::optional<WorldDesc> world_;

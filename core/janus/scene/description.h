@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "janus/image/image.h"
 #include "janus/math/vec.h"
 #include "janus/scene/node_graph.h"
 
@@ -32,6 +34,13 @@ struct InstanceDesc {
 struct MaterialDesc {
   std::string name;
   NodeGraph graph;
+};
+
+// A picture for texture nodes, which name its key in their property "image".
+struct ImageDesc {
+  std::string name;
+  std::shared_ptr<const Image> pixels;  // three channels or more, scene-linear unless `srgb`
+  bool srgb = false;                    // the pixels are encoded as sRGB
 };
 
 enum class LightType { Point, Spot, Sun, Area };

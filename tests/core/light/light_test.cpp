@@ -6,85 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/scene_kit.h"
-#include "support/statistics.h"
+#include "light/light_cases.h"
 
 namespace janus::test {
 namespace {
-
-struct LightCase {
-  std::string name;
-  SceneKit (*make)();
-  double watts;          // emitted; 0: not compared
-  bool hittable = true;  // false: a point
-  bool nee = true;       // false: the world
-  bool whole = true;     // shines over all of its surface towards the receiver
-};
-
-// The receiver, a square of side 1 at the origin with normal +z, is not part of the scene.
-SceneKit lamp(LightDesc desc) { return SceneKit().light("lamp", std::move(desc)); }
-
-LightDesc shaped(AreaShape shape, const mat4& deform, float spread = kPi) {
-  LightDesc desc = area_light({0.3f, -0.2f, 1.2f}, {0, 0, 0}, 0.6f, 7, spread);
-  desc.shape = shape;
-  desc.size_y = 0.3f;
-  desc.transform = desc.transform * deform;
-  return desc;
-}
-
-const LightCase kCases[] = {
-    {"point", [] { return lamp(point_light({0.2f, 0.1f, 1}, 7)); }, 7, false},
-    {"point_soft", [] { return lamp(point_light({0.2f, 0.1f, 1}, 7, 0.3f)); }, 7},
-    {"point_sphere", [] { return lamp(point_light({0.2f, 0.1f, 1}, 7, 0.3f, false)); }, 7},
-    {"square", [] { return lamp(shaped(AreaShape::Square, mat4(1))); }, 7},
-    {"rectangle_scaled",
-     [] { return lamp(shaped(AreaShape::Rectangle, scaling({2, -0.7f, 1.5f}))); }, 7},
-    {"disk", [] { return lamp(shaped(AreaShape::Disk, mat4(1))); }, 7},
-    {"ellipse_scaled", [] { return lamp(shaped(AreaShape::Ellipse, scaling({1, 3, 1}))); }, 7},
-    {"sheared",  // as under a parent that is scaled unevenly
-     [] {
-       mat4 shear(1);
-       shear[1][0] = 0.5f;
-       return lamp(shaped(AreaShape::Rectangle, shear));
-     },
-     7},
-    {"sheared_axis",  // the light's axis is not perpendicular to it
-     [] {
-       mat4 shear(1);
-       shear[2][0] = 0.4f;
-       return lamp(shaped(AreaShape::Rectangle, shear));
-     },
-     7},
-    {"spread", [] { return lamp(shaped(AreaShape::Square, mat4(1), 1.0f)); }, 7, true, true, false},
-    {"narrow_spread", [] { return lamp(shaped(AreaShape::Disk, mat4(1), 0.3f)); }, 7, true, true,
-     false},
-    {"mesh",  // both sides of 0.4 * 0.5 * 1.5 m^2 shine with pi L
-     [] {
-       return SceneKit().add(
-           "lamp", plane(0.4f, 0.5f), emission(Rgb(1), 3),
-           translation({0.1f, 0.2f, 0.9f}) * rotation({1, 2, 0}, 2.5f) * scaling({-1, 1.5f, 1}));
-     },
-     2 * 0.4 * 0.5 * 1.5 * 3 * 3.14159265},
-    {"world",  // geometry below the receiver sets the extent of the scene
-     [] {
-       return SceneKit().add("floor", plane(3, 3), {}, translation({0, 0, -0.1f})).world(Rgb(2));
-     },
-     0, true, false},
-};
-
-std::ostream& operator<<(std::ostream& out, const LightCase& c) { return out << c.name; }
-
-std::optional<LightHit> hit_light(const Scene& scene, const Ray& ray) {
-  const auto surface = scene.intersect(ray);
-  if (surface) {
-    size_t index;
-    const MeshLight* mesh = scene.mesh_light(*surface, index);
-    return mesh ? std::optional(
-                      mesh->at(*surface, ray.origin, ray.direction, scene.shade(*surface).emission))
-                : std::nullopt;
-  }
-  return scene.lights[0]->intersect(ray);
-}
 
 vec3 receiver_point(Random& random) { return vec3(random.next_2d() - 0.5f, 0); }
 
@@ -99,6 +24,26 @@ class Lights : public ::testing::TestWithParam<LightCase> {
  protected:
   const std::shared_ptr<const Scene> scene_ = GetParam().make().build();
   const Light& light_ = *scene_->lights.at(0);
+
+  // Next event estimation: `pdf_solid` with the choice of the emitter in it.
+  std::optional<IlluminationSample> illuminate(vec3 p) {
+    if (!scene_->light_sampler.illuminates()) {
+      return std::nullopt;
+    }
+    const LightChoice choice =
+        scene_->light_sampler.sample_illumination(facing_up(p), random_.next());
+    auto s = light_.sample_illumination(p, choice.primitive, random_.next_2d());
+    if (s) {
+      s->pdf_solid *= choice.pmf;
+    }
+    return s;
+  }
+  float pdf_illumination(vec3 p, const LightHit& h) const {
+    return h.pdf_illumination *
+           scene_->light_sampler.pmf_illumination(facing_up(p), 0, h.primitive);
+  }
+  static Receiver facing_up(vec3 p) { return {p, vec3(0, 0, 1), true}; }
+
   Random random_{9};
 };
 
@@ -118,7 +63,7 @@ TEST_P(Lights, IrradianceAgrees) {
   Mean nee, hit, emitted;
   for (int i = 0; i < samples(400000); ++i) {
     const vec3 p = receiver_point(random_);
-    if (const auto s = light_.sample_illumination(p, random_.next_2d())) {
+    if (const auto s = illuminate(p)) {
       nee.add(std::max(0.0f, s->wi.z) * s->radiance.x / s->pdf_solid);
     } else {
       nee.add(0);
@@ -150,7 +95,7 @@ TEST_P(Lights, DensityOfIlluminationAgrees) {
   for (int i = 0; i < 400000; ++i) {
     const vec3 p(0.1f, -0.2f, 0);
     const auto h = hit_light(*scene_, Ray{p, random_.direction()});
-    integral.add(h ? h->pdf_illumination * 4 * kPi : 0.0f);
+    integral.add(h ? pdf_illumination(p, *h) * 4 * kPi : 0.0f);
   }
   if (GetParam().whole) {
     EXPECT_LT(std::abs(z_score(integral, 1.0)), 4.0) << integral.mean();
@@ -158,7 +103,7 @@ TEST_P(Lights, DensityOfIlluminationAgrees) {
   int compared = 0, missed = 0;
   for (int i = 0; i < 10000; ++i) {
     const vec3 p = receiver_point(random_);
-    const auto s = light_.sample_illumination(p, random_.next_2d());
+    const auto s = illuminate(p);
     if (!s) {
       continue;
     }
@@ -168,7 +113,7 @@ TEST_P(Lights, DensityOfIlluminationAgrees) {
       continue;
     }
     ++compared;
-    EXPECT_NEAR(h->pdf_illumination / s->pdf_solid, 1, 1e-3);
+    EXPECT_NEAR(pdf_illumination(p, *h) / s->pdf_solid, 1, 1e-3);
     EXPECT_NEAR(h->radiance.x / s->radiance.x, 1, 1e-3);
     EXPECT_NEAR(h->emission.value / s->emission.value, 1, 1e-3);
   }
@@ -193,48 +138,164 @@ TEST_P(Lights, EmittedRaysKnowTheDensityOfIllumination) {
   EXPECT_EQ(compared > 100, GetParam().hittable && GetParam().nee);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Lights, ::testing::ValuesIn(kCases),
+// Sampled directions follow the density that a hit reports.
+TEST_P(Lights, IlluminationFitsItsDensity) {
+  if (!GetParam().nee || !GetParam().hittable) {
+    GTEST_SKIP() << "one description only";
+  }
+  const vec3 p(0.1f, -0.2f, 0);
+  const SphereCells cells{40, 40};
+  std::vector<double> counts(cells.size(), 0.0);
+  const int n = 20000;
+  for (int i = 0; i < n; ++i) {
+    if (const auto s = illuminate(p)) {
+      ++counts[cells.cell(s->wi)];
+    }
+  }
+  auto expected = cells.integrate(
+      [&](vec3 d) {
+        const auto h = hit_light(*scene_, Ray{p, d});
+        return h ? pdf_illumination(p, *h) : 0.0f;
+      },
+      16);
+  for (double& e : expected) {
+    e *= n;
+  }
+  EXPECT_LT(chi_square_z(counts, expected), 4.0);
+}
+
+// So do the directions of emitted rays.
+TEST_P(Lights, EmissionFitsItsDensity) {
+  if (!GetParam().projected) {
+    GTEST_SKIP() << "not of a simple shape";
+  }
+  const vec3 center = light_.emitters()[0].bounds.center();
+  const auto density = [&](vec3 d) {
+    if (!GetParam().hittable) {
+      const auto s = light_.sample_illumination(center + d, 0, vec2(0.5f));
+      return s ? s->emission.value : 0.0f;
+    }
+    const auto h = hit_light(*scene_, Ray{light_.infinite() ? vec3(0.0f) : center + 9.0f * d, -d});
+    return h ? h->emission.value : 0.0f;
+  };
+  const SphereCells cells{24, 24};
+  std::vector<double> counts(cells.size(), 0.0);
+  const int n = 30000;
+  for (int i = 0; i < n; ++i) {
+    if (const auto e = light_.sample_emission(random_.next_2d(), random_.next_2d())) {
+      ++counts[cells.cell(e->direction)];
+    }
+  }
+  auto expected = cells.integrate([&](vec3 d) { return density(d) * GetParam().projected(d); }, 24);
+  for (double& e : expected) {
+    e *= n;
+  }
+  EXPECT_LT(chi_square_z(counts, expected), 4.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Lights, ::testing::ValuesIn(kLightCases),
                          [](const auto& info) { return info.param.name; });
+
+// --- Known values ---
+
+double irradiance(const LightDesc& desc, vec3 p) {
+  const auto scene = around().light("lamp", desc).build();
+  Random random(10);
+  Mean sum;
+  for (int i = 0; i < 100000; ++i) {
+    const auto s = scene->lights[0]->sample_illumination(p, 0, random.next_2d());
+    sum.add(s ? std::max(0.0f, s->wi.z) * s->radiance.x / s->pdf_solid : 0.0f);
+  }
+  return sum.mean();
+}
 
 // Under a facing disk of radius R at height h: E = pi L R^2 / (R^2 + h^2).
 TEST(LightValues, DiskAndSphere) {
   LightDesc disk = area_light({0, 0, 1}, {0, 0, 0}, 0.8f, 5);
   disk.shape = AreaShape::Disk;
-  const double disk_radiance = 5 / (3.14159265 * 3.14159265 * 0.16);
+  EXPECT_NEAR(irradiance(disk, vec3(0)) / (5 / (kPiD * 0.16) * 0.16 / 1.16), 1, 0.003);
   // A sphere gives what its centre would give: E = I / d^2 = P / (4 pi d^2).
-  for (const auto& [desc, expected] :
-       {std::pair(disk, 3.14159265 * disk_radiance * 0.16 / 1.16),
-        std::pair(point_light({0, 0, 1}, 5, 0.4f, false), 5 / (4 * 3.14159265))}) {
-    const auto scene = SceneKit().light("lamp", desc).build();
-    Random random(10);
-    Mean irradiance;
-    for (int i = 0; i < 200000; ++i) {
-      const auto s = scene->lights[0]->sample_illumination(vec3(0), random.next_2d());
-      irradiance.add(s ? s->wi.z * s->radiance.x / s->pdf_solid : 0.0f);
+  const LightDesc sphere = point_light({0, 0, 1}, 5, 0.4f, false);
+  EXPECT_NEAR(irradiance(sphere, vec3(0)) / (5 / (4 * kPiD)), 1, 0.003);
+}
+
+// A point light's intensity, whatever the size of the beam, its blend and (on the axis, far away)
+// its radius.
+TEST(LightValues, SpotOnItsAxis) {
+  for (const float radius : {0.0f, 0.1f}) {
+    for (const float blend : {0.0f, 0.5f, 1.0f}) {
+      const LightDesc desc = spot_light({0, 0, 20}, {0, 0, 0}, 5, 0.7f, blend, radius);
+      EXPECT_NEAR(irradiance(desc, vec3(0)) / (5 / (4 * kPiD * 400)), 1, 2e-3) << radius << blend;
     }
-    EXPECT_NEAR(irradiance.mean() / expected, 1, 0.003);
   }
 }
 
-TEST(LightSampler, ProbabilitiesSumToOne) {
-  const auto scene = SceneKit()
-                         .add("lamp", plane(1, 1), emission(Rgb(1), 1))
-                         .light("a", point_light({0, 0, 1}, 1))
-                         .light("b", point_light({0, 0, 2}, 1000))
-                         .world(Rgb(1))
-                         .build();
-  ASSERT_EQ(scene->lights.size(), 4u);
-  float emission = 0, illumination = 0;
-  for (size_t i = 0; i < 4; ++i) {
-    const LightSampler& sampler = scene->light_sampler;
-    const bool infinite = scene->lights[i]->infinite();
-    emission += sampler.pmf_emission(i);
-    illumination += sampler.pmf_illumination(vec3(0), i);
-    EXPECT_GT(sampler.pmf_emission(i), 0.0f);
-    EXPECT_EQ(sampler.pmf_illumination(vec3(0), i) > 0.0f, !infinite);
+// Smoothstep over the cosine, from the edge inwards.
+TEST(LightValues, SpotBlend) {
+  const double edge = std::cos(0.35), inner = edge + 0.5 * (1 - edge);
+  for (const double angle : {0.1, 0.2, 0.3, 0.34, 0.36}) {
+    const double t = std::clamp((std::cos(angle) - edge) / (inner - edge), 0.0, 1.0);
+    const double expected = 5 / (4 * kPiD) * t * t * (3 - 2 * t);
+    const LightDesc desc = spot_light({0, 0, 1}, {0, 0, 0}, 5, 0.7f, 0.5f);
+    const double x = std::tan(angle), cosine = std::cos(angle);
+    const double e = irradiance(desc, vec3(x, 0, 0));
+    EXPECT_NEAR(e / (cosine * cosine * cosine), expected, 1e-5) << angle;
   }
-  EXPECT_FLOAT_EQ(emission, 1);
-  EXPECT_FLOAT_EQ(illumination, 1);
+}
+
+// The strength of a sun is the irradiance of a surface that faces it.
+TEST(LightValues, Sun) {
+  for (const float angle : {0.0f, 1e-6f, 0.00918f, 0.2f, 1.0f, kPi}) {
+    EXPECT_NEAR(irradiance(sun_light({0, 0, 1}, 3, angle), vec3(0)), 3, 0.01) << angle;
+  }
+  LightDesc plain = sun_light({0, 0, 1}, 3, 0.2f);
+  plain.normalize = false;  // the strength is the radiance
+  EXPECT_NEAR(irradiance(plain, vec3(0)), 3 * kPiD * 0.00996671, 1e-3);
+}
+
+// Within a sphere light its radiance comes from all around, and light paths go there.
+TEST(LightValues, InsideOfASphere) {
+  const double radiance = 5 / (4 * kPiD * kPiD);
+  for (LightDesc desc : {point_light({0, 0, 0.5f}, 5, 1, false),
+                         spot_light({0, 0, 0.5f}, {0, 0, 0}, 5, 0.5f, 0.1f, 1, false)}) {
+    const auto scene = SceneKit().light("lamp", desc).add("floor", plane(0.4f, 0.4f), {}).build();
+    const Light& light = *scene->lights[0];
+    Random random(11);
+    Mean nee, hit, emitted;
+    for (int i = 0; i < 200000; ++i) {
+      const vec3 p(0.4f * (random.next_2d() - 0.5f), 1e-3f);
+      const auto s = light.sample_illumination(p, 0, random.next_2d());
+      nee.add(s ? std::max(0.0f, s->wi.z) * s->radiance.x / s->pdf_solid : 0.0f);
+      const vec3 d = random.direction();
+      const auto h = light.intersect(Ray{p, d});
+      ASSERT_TRUE(h);
+      hit.add(std::max(0.0f, d.z) * h->radiance.x * 4 * kPi);
+      EXPECT_FLOAT_EQ(h->pdf_illumination, 0.25f * kInvPi);
+      const auto e = light.sample_emission(random.next_2d(), random.next_2d());
+      const auto surface = e ? scene->intersect(Ray{e->origin, e->direction}) : std::nullopt;
+      const bool lands = surface && e->direction.z < 0 && light.endpoint(*e, surface->p);
+      emitted.add(lands ? e->weight.x / 0.16f : 0.0f);
+    }
+    EXPECT_NEAR(hit.mean() / (kPiD * radiance), 1, 0.02);
+    EXPECT_TRUE(agree(nee, hit));
+    EXPECT_TRUE(agree(emitted, hit));
+  }
+}
+
+// A picture of one colour is a world of that colour, all around and over the poles.
+TEST(LightValues, ConstantImage) {
+  Image image(6, 3, 4);
+  std::fill(image.pixels.begin(), image.pixels.end(), 0.7f);
+  const auto scene = around().world(image, 2).build();
+  const Light& light = *scene->lights.at(0);
+  Random random(12);
+  for (int i = 0; i < 1000; ++i) {
+    const auto h = light.intersect(Ray{vec3(0), i == 0 ? vec3(0, 0, 1) : random.direction()});
+    ASSERT_TRUE(h);
+    EXPECT_FLOAT_EQ(h->radiance.x, 1.4f);
+    EXPECT_NEAR(h->pdf_illumination * 4 * kPi, 1, 1e-4);
+  }
+  EXPECT_NEAR(light.power() / (1.4 * 4 * kPiD * kPiD * 4.5), 1, 1e-4);
 }
 
 }  // namespace

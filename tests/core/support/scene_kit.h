@@ -185,6 +185,24 @@ class SceneKit {
     builder.set_world({"World", std::move(graph)});
     return *this;
   }
+  // A lat-long picture; `mapping`: a MAPPING node between the direction and the picture.
+  SceneKit& world(Image pixels, float strength = 1.0f, const std::string& interpolation = "Linear",
+                  std::optional<Node> mapping = std::nullopt) {
+    NodeGraph graph =
+        single("BACKGROUND", {{"Color", link("Map", "Color")}, {"Strength", strength}});
+    graph.nodes.push_back(node("Map", "TEX_ENVIRONMENT", {}));
+    graph.nodes.back().properties = {{"image", std::string("image")},
+                                     {"interpolation", interpolation}};
+    if (mapping) {
+      graph.nodes.back().inputs["Vector"] = link(mapping->name, "Vector");
+      mapping->inputs["Vector"] = link("Coordinates", "Generated");
+      graph.nodes.push_back(*mapping);
+      graph.nodes.push_back(node("Coordinates", "TEX_COORD", {}));
+    }
+    builder.set_image("image", {"Sky", std::make_shared<Image>(std::move(pixels)), false});
+    builder.set_world({"World", std::move(graph)});
+    return *this;
+  }
   SceneKit& camera(vec3 from, vec3 to, float half_window = 0.4f) {
     CameraDesc desc;
     desc.name = "Camera";
@@ -216,6 +234,26 @@ inline LightDesc point_light(vec3 p, float watts, float radius = 0.0f, bool soft
   desc.energy = watts;
   desc.radius = radius;
   desc.soft_falloff = soft;
+  return desc;
+}
+
+inline LightDesc spot_light(vec3 from, vec3 to, float watts, float size, float blend,
+                            float radius = 0.0f, bool soft = true) {
+  LightDesc desc = point_light({}, watts, radius, soft);
+  desc.type = LightType::Spot;
+  desc.transform = look_at(from, to);
+  desc.spot_size = size;
+  desc.spot_blend = blend;
+  return desc;
+}
+
+// `from`: a direction to the sun.
+inline LightDesc sun_light(vec3 from, float strength, float angle) {
+  LightDesc desc;
+  desc.type = LightType::Sun;
+  desc.transform = look_at(from, vec3(0.0f));
+  desc.energy = strength;
+  desc.angle = angle;
   return desc;
 }
 

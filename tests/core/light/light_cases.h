@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One scene for each kind of light, for tests that hold for all of them. The light is the scene's
+// first; the receiver, a square of side 1 at the origin with normal +z, is not part of the scene.
+#pragma once
+
+#include "support/scene_kit.h"
+#include "support/statistics.h"
+
+namespace janus::test {
+
+inline constexpr double kPiD = 3.14159265358979;
+
+struct LightCase {
+  std::string name;
+  SceneKit (*make)();
+  double watts = 0;      // emitted; 0: not compared
+  bool hittable = true;  // false: a point or a single direction
+  bool nee = true;       // false: the world of one colour
+  bool whole = true;     // shines over all of its surface towards the receiver
+  // Projected area from which the light sends rays in a direction; null: not compared.
+  double (*projected)(vec3) = nullptr;
+};
+
+inline std::ostream& operator<<(std::ostream& out, const LightCase& c) { return out << c.name; }
+
+inline SceneKit lamp(LightDesc desc) { return SceneKit().light("lamp", std::move(desc)); }
+
+inline mat4 sheared(int column, int row, float by) {
+  mat4 m(1);
+  m[column][row] = by;
+  return m;
+}
+
+inline LightDesc shaped(AreaShape shape, const mat4& deform = mat4(1), float spread = kPi) {
+  LightDesc desc = area_light({0.3f, -0.2f, 1.2f}, {0, 0, 0}, 0.6f, 7, spread);
+  desc.shape = shape;
+  desc.size_y = 0.3f;
+  desc.transform = desc.transform * deform;
+  return desc;
+}
+
+// `area` of the light before it is deformed.
+inline double facing(const LightDesc& desc, double area, vec3 direction) {
+  const vec3 plane = cross(vec3(desc.transform[0]), vec3(desc.transform[1]));
+  return area * std::abs(dot(plane, direction));
+}
+
+inline LightDesc spot(float radius, bool soft, const mat4& deform = mat4(1)) {
+  LightDesc desc = spot_light({0.3f, -0.2f, 1.2f}, {0.1f, 0, 0}, 7, 0.9f, 0.4f, radius, soft);
+  desc.transform = desc.transform * deform;
+  return desc;
+}
+
+// The share of a spot's watts that it emits: smoothstep over 1 - cos has the mean 1/2.
+inline double beam(double size, double blend) {
+  return 0.5 * (1 - std::cos(0.5 * size)) * (1 - 0.5 * blend);
+}
+
+// Geometry below the receiver sets the extent of the scene: light comes from around.
+inline SceneKit around() {
+  return SceneKit().add("floor", plane(3, 3), {}, translation({0, 0, -0.1f}));
+}
+
+inline double of_point(vec3) { return 1; }
+inline double of_ball(vec3) { return kPiD * 0.09; }
+inline double of_scene(vec3) { return kPiD * 4.5; }
+
+// All brightnesses, twice as bright from above, and a small sun.
+inline Image sky() {
+  Image image(16, 8, 3);
+  Random random(3);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    image.pixels[i] = random.next() * (i > image.pixels.size() / 2 ? 2.0f : 1.0f);
+  }
+  for (int c = 0; c < 3; ++c) {
+    image.pixels[3 * (6 * 16 + 4) + c] = 100.0f;
+  }
+  return image;
+}
+
+inline const LightCase kLightCases[] = {
+    {.name = "point",
+     .make = [] { return lamp(point_light({0.2f, 0.1f, 1}, 7)); },
+     .watts = 7,
+     .hittable = false,
+     .projected = of_point},
+    {.name = "point_soft",
+     .make = [] { return lamp(point_light({0.2f, 0.1f, 1}, 7, 0.3f)); },
+     .watts = 7,
+     .projected = of_ball},
+    {.name = "point_sphere",
+     .make = [] { return lamp(point_light({0.2f, 0.1f, 1}, 7, 0.3f, false)); },
+     .watts = 7,
+     .projected = of_ball},
+    {.name = "spot",
+     .make = [] { return lamp(spot(0, true)); },
+     .watts = 7 * beam(0.9, 0.4),
+     .hittable = false,
+     .projected = of_point},
+    {.name = "spot_hard",
+     .make = [] { return lamp(spot_light({0.2f, 0, 1}, {0, 0, 0}, 7, 0.5f, 0)); },
+     .watts = 7 * beam(0.5, 0),
+     .hittable = false,
+     .projected = of_point},
+    {.name = "spot_scaled",
+     .make = [] { return lamp(spot(0, true, scaling({2, 0.5f, 1}) * sheared(1, 0, 0.3f))); },
+     .hittable = false,
+     .projected = of_point},
+    {.name = "spot_wide",
+     .make = [] { return lamp(spot_light({0.2f, 0, 1}, {0, 0, 0}, 7, kPi, 1)); },
+     .watts = 7 * beam(kPiD, 1),
+     .hittable = false,
+     .projected = of_point},
+    {.name = "spot_soft",
+     .make = [] { return lamp(spot(0.3f, true)); },
+     .watts = 7 * beam(0.9, 0.4),
+     .whole = false,
+     .projected = of_ball},
+    {.name = "spot_sphere",
+     .make = [] { return lamp(spot(0.3f, false)); },
+     .watts = 7 * beam(0.9, 0.4),
+     .whole = false,
+     .projected = of_ball},
+    {.name = "spot_sphere_scaled",
+     .make = [] { return lamp(spot(0.3f, false, scaling({1.5f, -0.6f, 1}))); },
+     .whole = false,
+     .projected = of_ball},
+    {.name = "sun",
+     .make = [] { return around().light("lamp", sun_light({1, 0.5f, 2}, 3, 0)); },
+     .watts = 3 * kPiD * 4.5,
+     .hittable = false},
+    {.name = "sun_disk",
+     .make = [] { return around().light("lamp", sun_light({1, 0.5f, 2}, 3, 0.5f)); },
+     .projected = of_scene},
+    {.name = "sun_half_sky",
+     .make = [] { return around().light("lamp", sun_light({0.1f, 0.5f, 2}, 3, kPi)); },
+     .projected = of_scene},
+    {.name = "square",
+     .make = [] { return lamp(shaped(AreaShape::Square)); },
+     .watts = 7,
+     .projected = [](vec3 d) { return facing(shaped(AreaShape::Square), 0.36, d); }},
+    {.name = "rectangle_scaled",
+     .make = [] { return lamp(shaped(AreaShape::Rectangle, scaling({2, -0.7f, 1.5f}))); },
+     .watts = 7},
+    {.name = "disk", .make = [] { return lamp(shaped(AreaShape::Disk)); }, .watts = 7},
+    {.name = "ellipse_scaled",
+     .make = [] { return lamp(shaped(AreaShape::Ellipse, scaling({1, 3, 1}))); },
+     .watts = 7,
+     .projected =
+         [](vec3 d) {
+           return facing(shaped(AreaShape::Ellipse, scaling({1, 3, 1})), kPiD / 4 * 0.18, d);
+         }},
+    {.name = "sheared",  // as under a parent that is scaled unevenly
+     .make = [] { return lamp(shaped(AreaShape::Rectangle, sheared(1, 0, 0.5f))); },
+     .watts = 7},
+    {.name = "sheared_axis",  // the light's axis is not perpendicular to it
+     .make = [] { return lamp(shaped(AreaShape::Rectangle, sheared(2, 0, 0.4f))); },
+     .watts = 7},
+    {.name = "spread",
+     .make = [] { return lamp(shaped(AreaShape::Square, mat4(1), 1.0f)); },
+     .watts = 7,
+     .whole = false,
+     .projected = [](vec3 d) { return facing(shaped(AreaShape::Square), 0.36, d); }},
+    {.name = "narrow_spread",
+     .make = [] { return lamp(shaped(AreaShape::Disk, mat4(1), 0.3f)); },
+     .watts = 7,
+     .whole = false},
+    {.name = "mesh",  // both sides of 0.4 * 0.5 * 1.5 m^2 shine with pi L
+     .make =
+         [] {
+           return SceneKit().add("lamp", plane(0.4f, 0.5f), emission(Rgb(1), 3),
+                                 translation({0.1f, 0.2f, 0.9f}) * rotation({1, 2, 0}, 2.5f) *
+                                     scaling({-1, 1.5f, 1}));
+         },
+     .watts = 2 * 0.4 * 0.5 * 1.5 * 3 * kPiD},
+    {.name = "world", .make = [] { return around().world(Rgb(2)); }, .nee = false},
+    {.name = "world_image", .make = [] { return around().world(sky()); }, .projected = of_scene},
+    {.name = "world_image_closest_turned",
+     .make =
+         [] {
+           Node turn = node("Turn", "MAPPING", {{"Rotation", vec3(0.3f, -0.5f, 1.0f)}});
+           return around().world(sky(), 0.5f, "Closest", turn);
+         },
+     .projected = of_scene},
+};
+
+// The first light along the ray.
+inline std::optional<LightHit> hit_light(const Scene& scene, const Ray& ray) {
+  const Light& light = *scene.lights[0];
+  const auto surface = light.infinite() ? std::nullopt : scene.intersect(ray);
+  if (surface) {
+    size_t index;
+    const MeshLight* mesh = scene.mesh_light(*surface, index);
+    return mesh ? std::optional(
+                      mesh->at(*surface, ray.origin, ray.direction, scene.shade(*surface).emission))
+                : std::nullopt;
+  }
+  return light.intersect(ray);
+}
+
+}  // namespace janus::test
