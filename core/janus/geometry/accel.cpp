@@ -47,7 +47,8 @@ RTCRayHit to_embree(const Ray& ray) {
   query.ray.dir_x = ray.direction.x;
   query.ray.dir_y = ray.direction.y;
   query.ray.dir_z = ray.direction.z;
-  query.ray.tnear = 0.0f;
+  // Not 0: Embree counts a hit at tnear, and a ray may start exactly in the plane of its surface.
+  query.ray.tnear = std::numeric_limits<float>::min();
   query.ray.tfar = ray.t_max;
   query.ray.mask = ~0U;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;

@@ -4,11 +4,14 @@
 namespace janus {
 
 Rgb Scene::transmittance_through(vec3 a, vec3 b, int max_crossings) const {
+  if (accel->occluded_opaque(a, b)) {
+    return Rgb(0.0f);
+  }
   const vec3 d = normalize(b - a);
   Rgb result(1.0f);
   Ray ray{a, d, glm::length(b - a)};
   for (int crossings = 0;; ++crossings) {
-    const auto hit = accel->intersect(ray);
+    const auto hit = accel->intersect_transparent(ray);
     if (!hit) {
       return result;
     }
@@ -18,6 +21,9 @@ Rgb Scene::transmittance_through(vec3 a, vec3 b, int max_crossings) const {
     }
     ray.origin = offset_origin(hit->p, hit->ng, hit->offset, d);
     ray.t_max = dot(b - ray.origin, d);
+    if (!(ray.t_max > 0.0f)) {
+      return result;
+    }
   }
 }
 

@@ -33,11 +33,13 @@ class Scene {
   void shade(const SurfaceInteraction& hit, ShadingResult& result) const {
     programs[hit.material].run(hit.ns, result);
   }
+  bool occluded(vec3 a, vec3 b) const { return accel->occluded(a, b); }
+
   // What the surfaces on the open segment from `a` to `b` let through; black if one of them is
   // opaque, or if they are more than `max_crossings`.
   Rgb transmittance(vec3 a, vec3 b, int max_crossings) const {
     if (!has_transparency) {
-      return Rgb(accel->occluded(a, b) ? 0.0f : 1.0f);
+      return Rgb(occluded(a, b) ? 0.0f : 1.0f);
     }
     return transmittance_through(a, b, max_crossings);
   }

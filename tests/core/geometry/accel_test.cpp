@@ -81,8 +81,8 @@ TEST(Accel, FindsWhatBruteForceFinds) {
     EXPECT_NEAR(t, expected, 1e-4);
     EXPECT_NEAR(glm::length(hit->p - (ray.origin + t * ray.direction)), 0, 1e-4);
     // Shadow rays agree, and t_max is respected.
-    EXPECT_TRUE(scene->accel->occluded(ray.origin, ray.origin + (t + 1e-3f) * ray.direction));
-    EXPECT_FALSE(scene->accel->occluded(ray.origin, ray.origin + (t - 1e-3f) * ray.direction));
+    EXPECT_TRUE(scene->occluded(ray.origin, ray.origin + (t + 1e-3f) * ray.direction));
+    EXPECT_FALSE(scene->occluded(ray.origin, ray.origin + (t - 1e-3f) * ray.direction));
     EXPECT_FALSE(scene->intersect(Ray{ray.origin, ray.direction, t - 1e-3f}));
   }
   EXPECT_GT(hits, 1000);
@@ -207,7 +207,7 @@ TEST_P(Offsets, PointsInARoomSeeEachOther) {
       continue;  // one wall
     }
     ++compared;
-    blocked += scene->accel->occluded(offset_origin(a.p, a.ng, a.offset, d),
+    blocked += scene->occluded(offset_origin(a.p, a.ng, a.offset, d),
                                offset_origin(b.p, b.ng, b.offset, -d));
   }
   EXPECT_GT(compared, 10000);

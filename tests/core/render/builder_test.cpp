@@ -127,7 +127,7 @@ TEST(Builder, LeavesOutLampsThatCannotShine) {
 TEST(Builder, EmptyScenesAreScenes) {
   const auto scene = SceneKit().build();
   EXPECT_FALSE(scene->intersect(Ray{vec3(0), vec3(0, 0, 1)}));
-  EXPECT_FALSE(scene->accel->occluded(vec3(0), vec3(1)));
+  EXPECT_FALSE(scene->occluded(vec3(0), vec3(1)));
   EXPECT_FALSE(scene->light_sampler.emits());
   EXPECT_FALSE(scene->light_sampler.illuminates());
 }
