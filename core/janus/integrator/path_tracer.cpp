@@ -59,15 +59,14 @@ class PathTracer final : public PassIntegrator {
             found.pdf_illumination;
         sum += beta * found.radiance * (delta ? 1.0f : weight(pdf_solid, pdf_nee));
       };
-      for (const size_t lamp : scene.lamps) {
+      const float distance = hit ? glm::length(hit->p - ray.origin) : ray.t_max;
+      scene.lamp_index.for_each_on_ray(Ray{ray.origin, ray.direction, distance}, [&](size_t lamp) {
         const Light& light = *scene.lights[lamp];
-        const float t_max = hit                ? glm::length(hit->p - ray.origin)
-                            : light.infinite() ? kInfinity
-                                               : ray.t_max;
+        const float t_max = light.infinite() && !hit ? kInfinity : distance;
         if (const auto found = light.intersect(Ray{ray.origin, ray.direction, t_max})) {
           add_light(lamp, *found);
         }
-      }
+      });
       if (!hit) {
         return sum;
       }

@@ -222,13 +222,13 @@ bool trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster,
                           left});
     };
     const float distance = hit ? glm::length(hit->p - ray.origin) : ray.t_max;
-    for (const size_t lamp : scene.lamps) {
+    scene.lamp_index.for_each_on_ray(Ray{ray.origin, ray.direction, distance}, [&](size_t lamp) {
       const Light& light = *scene.lights[lamp];
       const float t_max = light.infinite() && !hit ? kInfinity : distance;
       if (const auto light_hit = light.intersect(Ray{ray.origin, ray.direction, t_max})) {
         found(lamp, *light_hit);
       }
-    }
+    });
     if (!hit) {
       return seen;
     }
