@@ -18,7 +18,7 @@ import bpy
 
 from .convert import convert, plain, socket_value
 
-# Property types that are plain data; pointers (images, ramps, curves) need code of their own.
+# Property types that are plain data; pointers (ramps, curves) need code of their own.
 PLAIN_PROPERTIES = {"ENUM", "BOOLEAN", "INT", "FLOAT", "STRING"}
 CONSTANT_NODES = {"RGB", "VALUE"}
 MAX_STEPS = 10_000  # a cycle through broken links must end
@@ -206,9 +206,15 @@ def _by_identifier(sockets, identifier: str):
     return next((socket for socket in sockets if socket.identifier == identifier), None)
 
 
+def image_key(image) -> str:
+    """What a texture node's property "image" says: the key under which its pixels are sent."""
+    return f"image:{image.name_full}"
+
+
 def _properties(node) -> dict:
     common = bpy.types.Node.bl_rna.properties
-    return {
+    image = getattr(node, "image", None)
+    return ({"image": image_key(image)} if isinstance(image, bpy.types.Image) else {}) | {
         p.identifier: plain(getattr(node, p.identifier))
         for p in node.bl_rna.properties
         if p.type in PLAIN_PROPERTIES and p.identifier not in common

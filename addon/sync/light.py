@@ -69,6 +69,8 @@ def shape(light) -> dict:
 
 def check_light(obj, log) -> None:
     """Names what the core does not know about this light yet."""
+    if obj.data.type == "SPOT" and obj.data.use_square:
+        log.info("a square spot is round here, as in Cycles", object=obj.name)
     if not obj.data.use_shadow:
         log.warning("a light without shadows is not supported, it casts them", object=obj.name)
     hidden = [name for name in VISIBILITY if not getattr(obj, name)]

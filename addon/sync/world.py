@@ -4,6 +4,7 @@
 import bpy
 
 from ..nodes import flatten_tree
+from .image import send_images
 
 
 def sync_world(builder, depsgraph, log) -> None:
@@ -18,6 +19,7 @@ def sync_world(builder, depsgraph, log) -> None:
         if output and output.inputs["Volume"].is_linked:
             log.warning("volumes are not supported yet", object=world.name)
         graph = flatten_tree(world.node_tree)
+        send_images(builder, graph, world, log)
     else:
         graph = background_graph(world.color)
     builder.set_world(name=world.name, graph=graph)

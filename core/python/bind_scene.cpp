@@ -24,6 +24,7 @@ constexpr EnumName<AreaShape> kAreaShapes[] = {{"SQUARE", AreaShape::Square},
                                                {"RECTANGLE", AreaShape::Rectangle},
                                                {"DISK", AreaShape::Disk},
                                                {"ELLIPSE", AreaShape::Ellipse}};
+constexpr py::ssize_t kMaxImageSide = 1 << 16;
 constexpr EnumName<Severity> kSeverities[] = {
     {"INFO", Severity::Info}, {"WARNING", Severity::Warning}, {"ERROR", Severity::Error}};
 
@@ -132,6 +133,26 @@ void set_mesh(SceneBuilder& self, Key key, std::string name, const py::object& p
     desc.material_indices = to_indices(key, "material_indices", *a, 0);
   }
   self.set_mesh(key, std::move(desc));
+}
+
+void set_image(SceneBuilder& self, Key key, std::string name, const py::object& pixels, bool srgb) {
+  const py::array a = to_array(pixels);
+  const char kind = a.dtype().kind();
+  if (kind != 'f' && kind != 'i' && kind != 'u') {
+    throw SceneError(key, "pixels", "must hold numbers");
+  }
+  if (a.ndim() != 3 || a.shape(2) < 3 || a.shape(2) > 4 || a.size() == 0 ||
+      a.shape(0) > kMaxImageSide || a.shape(1) > kMaxImageSide) {
+    throw SceneError(key, "pixels",
+                     "the shape must be (height, width, 3 or 4), not " + shape_of(a));
+  }
+  const auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(a);
+  auto image = std::make_shared<Image>();
+  image->height = static_cast<int>(a.shape(0));
+  image->width = static_cast<int>(a.shape(1));
+  image->channels = static_cast<int>(a.shape(2));
+  image->pixels.assign(values.data(), values.data() + values.size());
+  self.set_image(key, {std::move(name), std::move(image), srgb});
 }
 
 void set_light(SceneBuilder& self, Key key, std::string name, const std::string& type,
@@ -299,6 +320,9 @@ void bind_scene(py::module_& m) {
           "key"_a, py::kw_only(), "name"_a, "graph"_a,
           "A surface, as a flattened node tree: {'nodes': [{'name', 'type', 'inputs', "
           "'properties'}], 'surface': {'link': [node, output]} or None}.")
+      .def("set_image", &set_image, "key"_a, py::kw_only(), "name"_a, "pixels"_a, "srgb"_a = false,
+           "A picture for texture nodes whose property 'image' is this key: float[H,W,3 or 4], the "
+           "bottom row first, scene-linear Rec.709 unless srgb. Copied.")
       .def(
           "set_instance",
           [](SceneBuilder& self, Key key, std::string name, std::string mesh,

@@ -11,6 +11,7 @@ class Recorder:
 
     def __init__(self, diagnostics=()):
         self.meshes, self.materials, self.instances, self.lights = {}, {}, {}, {}
+        self.images = {}
         self.world = self.camera = None
         self.diagnostics = list(diagnostics)
 
@@ -25,6 +26,10 @@ class Recorder:
     def set_material(self, key, *, name, graph):
         assert key not in self.materials
         self.materials[key] = {"name": name, "graph": graph}
+
+    def set_image(self, key, **arguments):
+        assert key not in self.images
+        self.images[key] = self._copy(arguments)
 
     def set_instance(self, key, **arguments):
         assert key not in self.instances

@@ -66,14 +66,15 @@ class PathTracer final : public PassIntegrator {
   // The lamps on the present segment, which ends at `t_end`, or nowhere.
   Rgb lamps(const Walk& walk, std::optional<float> t_end) const {
     Rgb sum(0.0f);
-    for (const size_t lamp : context_.scene.lamps) {
+    const Ray up_to{walk.ray.origin, walk.ray.direction, t_end.value_or(walk.ray.t_max)};
+    context_.scene.lamp_index.for_each_on_ray(up_to, [&](size_t lamp) {
       const Light& light = *context_.scene.lights[lamp];
       const float t_max = t_end.value_or(light.infinite() ? kInfinity : walk.ray.t_max);
       const auto hit = light.intersect(Ray{walk.ray.origin, walk.ray.direction, t_max});
       if (hit && hit->t > walk.t_begin) {
         sum += found(walk, lamp, *hit);
       }
-    }
+    });
     return sum;
   }
 

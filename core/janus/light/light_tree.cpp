@@ -100,9 +100,11 @@ Cluster cluster_of(const Emitter& e) {
 }  // namespace
 
 float cos_receiver(const Receiver& receiver, vec3 direction, float cos_b, float sin_b) {
-  const float c = dot(receiver.n, direction);
-  const float best = cos_minus(receiver.two_sided ? std::abs(c) : c, cos_b, sin_b);
-  return best < -kGrazing ? 0.0f : std::max(best, kGrazing);
+  float c = dot(receiver.n, direction);
+  c = receiver.two_sided ? std::abs(c) : c;
+  const float best = cos_minus(c, cos_b, sin_b);
+  // Emitters are all over the angle: between the best and the middle.
+  return best < -kGrazing ? 0.0f : std::max(0.5f * (best + std::max(c, 0.0f)), kGrazing);
 }
 
 struct LightTree::Build {
@@ -221,8 +223,8 @@ float LightTree::importance(const Node& node, const Receiver& receiver) {
     }
     cosines *= std::max(best, kGrazing);
   }
-  // Inside of the bounds the distance means nothing.
-  return std::min(node.strength * cosines / std::max(std::max(d2, r2), 1e-30f), 1e30f);
+  // The mean of 1 / distance^2 over the bounds grows towards their middle, but not without limit.
+  return std::min(node.strength * cosines / (d2 + 0.3f * r2 + 1e-30f), 1e30f);
 }
 
 float LightTree::pmf_left(uint32_t node, const Receiver& receiver) const {

@@ -21,9 +21,9 @@ struct Receiver {
   bool two_sided;  // can light from behind `n` matter? (transmission)
 };
 
-// Cosine of the angle at which a surface of `receiver` sees light from within an angle (`cos_b`,
-// `sin_b`) around `direction`, at best. Rounding is on the safe side: 0 only if no light from
-// there can reach the receiver, otherwise at least kGrazing.
+// About the cosine at which a surface of `receiver` sees light from within an angle (`cos_b`,
+// `sin_b`) around `direction`. 0 only if no light from there can reach the receiver, with a margin
+// for rounding; otherwise never close to 0.
 float cos_receiver(const Receiver& receiver, vec3 direction, float cos_b, float sin_b);
 
 class LightTree {

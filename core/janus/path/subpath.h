@@ -177,14 +177,15 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
           step.left});
     };
     const auto on_segment = [&](float t_begin, float t_end, bool surface) {
-      for (const size_t lamp : scene.lamps) {
+      const Ray up_to{ray.origin, ray.direction, t_end};
+      scene.lamp_index.for_each_on_ray(up_to, [&](size_t lamp) {
         const Light& light = *scene.lights[lamp];
         const float t_max = light.infinite() && !surface ? kInfinity : t_end;
         const auto light_hit = light.intersect(Ray{ray.origin, ray.direction, t_max});
         if (light_hit && light_hit->t > t_begin) {
           found(lamp, *light_hit);
         }
-      }
+      });
       if (!surface) {
         alpha = v.edges == 1 ? 1.0f - average(v.beta) : alpha;
       } else if (!is_black(v.shading.emission)) {

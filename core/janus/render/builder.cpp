@@ -128,7 +128,10 @@ class Commit {
     }
   }
 
-  void finish() { scene_.light_sampler = LightSampler(scene_.lights); }
+  void finish() {
+    scene_.lamp_index = LampIndex(scene_.lights, scene_.lamps);
+    scene_.light_sampler = LightSampler(scene_.lights);
+  }
 
  private:
   void warn(const std::string& object, const std::string& message) {

@@ -7,6 +7,7 @@
 
 #include "janus/geometry/accel.h"
 #include "janus/geometry/mesh.h"
+#include "janus/light/lamp_index.h"
 #include "janus/light/light_sampler.h"
 #include "janus/light/mesh_light.h"
 #include "janus/scene/description.h"
@@ -63,6 +64,7 @@ class Scene {
   std::unique_ptr<Accel> accel;
   std::vector<std::unique_ptr<Light>> lights;  // mesh lights first
   std::vector<size_t> lamps;  // the lights that rays meet without a surface; the world last
+  LampIndex lamp_index;
   LightSampler light_sampler;
   bool has_transparency = false;  // of some surface
   CameraDesc camera;

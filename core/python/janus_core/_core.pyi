@@ -125,6 +125,12 @@ class SceneBuilder:
         number, 3 or 4 numbers, a string, or a link. Types and identifiers are Blender's; see
         node_types().
         """
+    def set_image(self, key: str, *, name: str, pixels: npt.ArrayLike, srgb: bool = False) -> None:
+        """A picture for texture nodes, which name it by their property "image": this key.
+
+        pixels: float[H, W, 3 or 4], the bottom row first, scene-linear Rec.709; with srgb encoded
+        as sRGB, and decoded after interpolation, as in Cycles.
+        """
     def set_instance(
         self,
         key: str,
@@ -171,7 +177,11 @@ class SceneBuilder:
         spot_size: full angle. graph: the light's own node tree, as for set_material.
         """
     def set_world(self, *, name: str, graph: Mapping[str, Any] | None) -> None:
-        """The background, as for set_material; graph None: black."""
+        """The background, as for set_material; graph None: black.
+
+        A TEX_ENVIRONMENT node with a lat-long image may feed the Background's colour, its vector
+        unlinked or from TEX_COORD (Generated), directly or by way of a MAPPING that only turns.
+        """
     def set_camera(
         self,
         *,
@@ -188,7 +198,7 @@ class SceneBuilder:
         on the plane at distance 1. clip_start, clip_end: distances along the view axis.
         """
     def remove(self, key: str) -> None:
-        """Forgets the mesh, material, instance and light of this key; unknown keys are ignored."""
+        """Forgets what has this key; unknown keys are ignored."""
     def commit(self, poll: Callable[[], object] | None = None) -> Scene:
         """Builds the immutable scene without holding the GIL.
 

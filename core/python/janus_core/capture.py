@@ -26,8 +26,17 @@ __all__ = ["CapturingBuilder", "load"]
 FORMAT = "janus scene"
 VERSION = 1  # raised when an older reader could not understand a newer file
 
-_KINDS = ("mesh", "material", "instance", "light")  # in the order in which load() sets them
-_MESH_ARRAYS = ("positions", "triangles", "corner_vertices", "corner_normals", "material_indices")
+_KINDS = (
+    "mesh",
+    "material",
+    "image",
+    "instance",
+    "light",
+)  # in the order in which load() sets them
+_ARRAYS = {
+    "mesh": ("positions", "triangles", "corner_vertices", "corner_normals", "material_indices"),
+    "image": ("pixels",),
+}
 _TRANSFORMS = "instance_transforms"  # one array for all, as there can be very many
 
 
@@ -51,6 +60,10 @@ class CapturingBuilder:
     def set_material(self, key: str, **arguments: Any) -> None:
         """As SceneBuilder.set_material."""
         self._set("material", key, arguments)
+
+    def set_image(self, key: str, **arguments: Any) -> None:
+        """As SceneBuilder.set_image."""
+        self._set("image", key, arguments)
 
     def set_instance(self, key: str, **arguments: Any) -> None:
         """As SceneBuilder.set_instance."""
@@ -111,15 +124,16 @@ class CapturingBuilder:
             "camera": self._camera,
         }
         arrays: dict[str, np.ndarray] = {}
-        description["mesh"] = {}
-        for number, (key, item) in enumerate(self._items["mesh"].items()):
-            members = {name: f"mesh/{number}/{name}" for name in _MESH_ARRAYS if name in item}
-            for name, member in members.items():
-                if item[name] is not None:
-                    arrays[member] = np.asarray(item[name])
-            rest = {name: value for name, value in item.items() if name not in members}
-            members = {name: member for name, member in members.items() if member in arrays}
-            description["mesh"][key] = {**rest, "arrays": members}
+        for kind, names in _ARRAYS.items():
+            description[kind] = {}
+            for number, (key, item) in enumerate(self._items[kind].items()):
+                members = {name: f"{kind}/{number}/{name}" for name in names if name in item}
+                for name, member in members.items():
+                    if item[name] is not None:
+                        arrays[member] = np.asarray(item[name])
+                rest = {name: value for name, value in item.items() if name not in members}
+                members = {name: member for name, member in members.items() if member in arrays}
+                description[kind][key] = {**rest, "arrays": members}
         for kind in ("material", "light"):
             description[kind] = self._items[kind]
         instances = self._items["instance"]
@@ -179,9 +193,11 @@ def _build(
     description: dict[str, Any], archive: zipfile.ZipFile
 ) -> tuple[SceneBuilder, RenderSettings]:
     builder = SceneBuilder()
-    for key, item in description["mesh"].items():
-        arrays = {name: _array(archive, member) for name, member in item.pop("arrays").items()}
-        builder.set_mesh(key, **{name: None for name in _MESH_ARRAYS[2:]} | item | arrays)
+    for kind in _ARRAYS:
+        for key, item in description.get(kind, {}).items():
+            arrays = {name: _array(archive, member) for name, member in item.pop("arrays").items()}
+            optional = {name: None for name in _ARRAYS[kind][2:]}
+            getattr(builder, f"set_{kind}")(key, **optional | item | arrays)
     for kind in ("material", "light"):
         for key, item in description[kind].items():
             getattr(builder, f"set_{kind}")(key, **item)

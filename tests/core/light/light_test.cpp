@@ -157,7 +157,7 @@ TEST_P(Lights, IlluminationFitsItsDensity) {
         const auto h = hit_light(*scene_, Ray{p, d});
         return h ? pdf_illumination(p, *h) : 0.0f;
       },
-      16);
+      40);
   for (double& e : expected) {
     e *= n;
   }
@@ -186,7 +186,7 @@ TEST_P(Lights, EmissionFitsItsDensity) {
       ++counts[cells.cell(e->direction)];
     }
   }
-  auto expected = cells.integrate([&](vec3 d) { return density(d) * GetParam().projected(d); }, 24);
+  auto expected = cells.integrate([&](vec3 d) { return density(d) * GetParam().projected(d); }, 64);
   for (double& e : expected) {
     e *= n;
   }

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A floor and a block under one light, for each kind of light: pictures by Cycles, and captures.
+
+`python light_scenes.py FOLDER` writes FOLDER/CASE.npz (a capture) and FOLDER/CASE_N.exr (Cycles,
+with seed N). One process makes them all, since starting Blender takes longer than such a picture.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SIZE, SAMPLES, SEEDS = 24, 256, 5
+
+# Name: the arguments of a light object (`lamp`), or of a world of a picture (`sky`).
+LIGHTS = {
+    "point": dict(kind="POINT", radius=0.0),
+    "point_soft": dict(kind="POINT", radius=0.4),
+    "point_sphere": dict(kind="POINT", radius=0.4, soft=False),
+    "point_around_all": dict(kind="POINT", radius=3.0, soft=False),
+    "point_not_normalized": dict(kind="POINT", radius=0.4, energy=20, use_normalize=False),
+    "exposure": dict(kind="POINT", radius=0.1, exposure=-1.5),
+    "temperature": dict(kind="POINT", radius=0.1, temperature=2700.0),
+    "spot": dict(kind="SPOT", radius=0.0, spot_size=0.8, spot_blend=0.3),
+    "spot_hard_square": dict(kind="SPOT", radius=0.0, spot_size=0.6, spot_blend=0, use_square=True),
+    "spot_soft": dict(kind="SPOT", radius=0.3, spot_size=0.9, spot_blend=1.0),
+    "spot_sphere": dict(kind="SPOT", radius=0.3, soft=False, spot_size=0.9, spot_blend=0.5),
+    "spot_wide": dict(kind="SPOT", radius=0.1, spot_size=math.pi, spot_blend=0.2),
+    "spot_scaled": dict(
+        kind="SPOT", radius=0.0, spot_size=0.8, spot_blend=0.4, scale=(1.6, 0.5, 0.8)
+    ),
+    "spot_sheared": dict(kind="SPOT", radius=0.2, spot_size=0.7, spot_blend=0.4, shear=0.5),
+    "sun": dict(kind="SUN", angle=0.0, energy=2),
+    "sun_5": dict(kind="SUN", angle=math.radians(5), energy=2),
+    "sun_60": dict(kind="SUN", angle=math.radians(60), energy=2),
+    "sun_180": dict(kind="SUN", angle=math.pi, energy=2),
+    "sun_not_normalized": dict(kind="SUN", angle=0.2, energy=60, use_normalize=False),
+    "sun_sheared": dict(kind="SUN", angle=0.1, energy=2, scale=(1, 2, 0.5), shear=0.5),
+    "area": dict(kind="AREA", shape="SQUARE", size=0.8),
+    "area_ellipse_scaled": dict(
+        kind="AREA", shape="ELLIPSE", size=1.0, size_y=0.5, scale=(1.5, -0.7, 1)
+    ),
+    "area_sheared": dict(kind="AREA", shape="RECTANGLE", size=0.8, size_y=0.4, shear=0.6),
+    "area_spread": dict(kind="AREA", shape="DISK", size=0.8, spread=1.2),
+    "area_narrow": dict(kind="AREA", shape="SQUARE", size=1.5, spread=0.1),
+    "area_not_normalized": dict(kind="AREA", shape="SQUARE", size=0.8, use_normalize=False),
+}
+SKIES = {
+    "sky": dict(),
+    "sky_closest": dict(interpolation="Closest"),
+    "sky_bytes": dict(space="sRGB"),
+    "sky_bytes_plain": dict(space="Non-Color"),
+    "sky_alpha": dict(space="sRGB", alpha=0.5),
+    "sky_float_alpha": dict(alpha=0.5),
+    "sky_turned": dict(rotation=(0.4, -0.3, 1.1)),
+    "sky_turned_texture": dict(rotation=(0.4, -0.3, 1.1), vector_type="TEXTURE", scale=(-2, 2, 2)),
+    "sky_missing": dict(missing=True),
+}
+CASES = [*LIGHTS, *SKIES]
+
+
+def lamp(scene, kind, radius=0.0, soft=True, scale=(1, 1, 1), shear=0.0, **values):
+    import bpy
+    from mathutils import Matrix
+
+    data = bpy.data.lights.new("Lamp", kind)
+    data.energy = 60.0
+    if kind in ("POINT", "SPOT"):
+        data.shadow_soft_size, data.use_soft_falloff = radius, soft
+    if "temperature" in values:
+        data.use_temperature = True
+    if "use_normalize" in values:
+        data.normalize = values.pop("use_normalize")
+    for name, value in values.items():
+        setattr(data, name, value)
+    obj = bpy.data.objects.new("Lamp", data)
+    obj.visible_camera = False
+    scene.collection.objects.link(obj)
+    deform = Matrix.Diagonal((*scale, 1.0))
+    if shear:  # as under a parent that is scaled unevenly
+        deform = deform @ Matrix(((1, shear, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)))
+    turn = Matrix.LocRotScale((0.3, -0.2, 1.9), Matrix.Rotation(0.25, 3, (1, 2, 1)), None)
+    empty = bpy.data.objects.new("Parent", None)  # a matrix that location and scale cannot say
+    scene.collection.objects.link(empty)
+    obj.parent, obj.matrix_parent_inverse = empty, turn @ deform
+
+
+def sky(
+    scene, interpolation="Linear", space=None, alpha=1.0, rotation=None, missing=False, **mapping
+):
+    """A map of 16 x 8 pixels with a small sun, and a sharp edge to tell the sides."""
+    import bpy
+    import numpy as np
+
+    tree = scene.world.node_tree
+    texture = tree.nodes.new("ShaderNodeTexEnvironment")
+    texture.interpolation = interpolation
+    tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    if not missing:
+        image = bpy.data.images.new("Sky", 16, 8, alpha=True, float_buffer=space is None)
+        if space:
+            image.colorspace_settings.name = space
+        pixels = np.zeros((8, 16, 4), dtype=np.float32)
+        pixels[..., :3] = np.random.default_rng(2).uniform(0.05, 0.6, (8, 16, 3))
+        pixels[:, :8, 0] *= 0.3
+        pixels[5, 5, :3] = (40.0, 35.0, 20.0) if space is None else (1.0, 0.9, 0.8)
+        pixels[..., 3] = alpha
+        image.pixels.foreach_set(pixels.ravel())
+        image.update()
+        texture.image = image
+    if rotation:
+        node, source = tree.nodes.new("ShaderNodeMapping"), tree.nodes.new("ShaderNodeTexCoord")
+        node.vector_type = mapping.get("vector_type", "POINT")
+        node.inputs["Rotation"].default_value = rotation
+        node.inputs["Scale"].default_value = mapping.get("scale", (1, 1, 1))
+        tree.links.new(source.outputs["Generated"], node.inputs["Vector"])
+        tree.links.new(node.outputs["Vector"], texture.inputs["Vector"])
+
+
+def build(name: str):
+    """The scene of one case in a fresh file."""
+    import bpy
+
+    from scenes import kit
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    kit.neutral_settings(scene, SIZE, SIZE, SAMPLES)
+    kit.world(scene)
+    white = kit.diffuse("White", (0.8, 0.75, 0.7))
+    corners = [(-1.5, -1.5, 0), (1.5, -1.5, 0), (1.5, 1.5, 0), (-1.5, 1.5, 0)]
+    kit.quad(scene, "Floor", corners, white)
+    kit.box(scene, "Block", (0.5, 0.4, 0.6), white).rotation_euler = (0, 0, 0.4)
+    kit.camera(scene, (0.0, -4.0, 3.2), (0.0, 0.1, 0.1), lens=55.0)
+    if name in LIGHTS:
+        lamp(scene, **LIGHTS[name])
+    else:
+        sky(scene, **SKIES[name])
+    return scene
+
+
+def main(folder: Path, names: list[str]) -> None:
+    import bpy
+
+    from scenes.driver import addon as addons
+
+    addon = addons.load()
+    for name in names:
+        scene = build(name)
+        scene.render.image_settings.file_format = "OPEN_EXR"
+        scene.render.image_settings.color_depth = "32"
+        scene.render.threads_mode, scene.render.threads = "FIXED", 2
+        scene.render.engine = "CYCLES"
+        for kind in ("max", "diffuse", "glossy", "transmission"):
+            setattr(scene.cycles, f"{kind}_bounces", 1)
+        for seed in range(1, SEEDS + 1):
+            scene.cycles.seed = seed
+            scene.render.filepath = str(folder / f"{name}_{seed}.exr")
+            bpy.ops.render.render(write_still=True)
+        scene.render.engine = addons.ENGINE
+        scene.janus.samples, scene.janus.max_bounces = 1, 1
+        scene.janus.capture_path = str(folder / f"{name}.npz")
+        bpy.ops.render.render()
+        for entry, _ in addon.part("report").kept(scene.name_full):
+            if entry.severity != "INFO":
+                print(f"{name}: {entry}", file=sys.stderr)
+        scene.render.engine = "CYCLES"
+    addon.unload()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(0)  # Blender's own exit can crash
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(ROOT))
+    main(Path(sys.argv[1]), sys.argv[2:] or CASES)
