@@ -112,7 +112,7 @@ class Commit {
       return;
     }
     const Program program = compile(*world.graph, world.name, scene_.diagnostics);
-    if (!program.instructions.empty()) {
+    if (!program.lobes.empty()) {
       scene_.diagnostics.push_back(
           {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
     }

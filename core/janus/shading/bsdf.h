@@ -6,7 +6,7 @@
 // space, away from the surface. Values have these roles from both walks; pdfs are per solid angle.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -31,7 +31,17 @@ struct BsdfSample {
   float eta_scale = 1.0f;
 };
 
-// A view of lobes at a point with geometric normal `ng` (unit, front side).
+// Value and densities for a pair of directions, of the lobes that are not deltas.
+struct BsdfEval {
+  // sum of f_l |wi . N_l| in Cycles' meaning; in Importance mode times |wo . Ng| / |wi . Ng|, the
+  // cosine that a light subpath needs with shading normals (Veach 1997, eq. 5.18).
+  Rgb f = Rgb(0.0f);
+  // Density with which sample() draws wi from wo in Radiance, and wo from wi in Importance mode.
+  float pdf_radiance = 0.0f, pdf_importance = 0.0f;
+};
+
+// A view of lobes at a point with geometric normal `ng` (unit, front side). Lobes of a cache may
+// leave out the deltas of the Bsdf that they come from.
 class BsdfView {
  public:
   BsdfView(std::span<const Lobe> lobes, vec3 ng) : lobes_(lobes), ng_(ng) {}
@@ -42,16 +52,15 @@ class BsdfView {
   // True if some lobe scatters to the other side of Ng.
   bool transmits() const;
 
-  // sum of f_l |wi . N_l| over the lobes that are not deltas (Cycles' meaning of a closure).
-  Rgb eval_cos(vec3 wo, vec3 wi) const;
+  BsdfEval evaluate(vec3 wo, vec3 wi, TransportMode mode) const;
 
-  // eval_cos in Radiance mode. In Importance mode times |wo . Ng| / |wi . Ng|: the cosine that a
-  // light subpath needs with shading normals (Veach 1997, eq. 5.18).
-  Rgb eval(vec3 wo, vec3 wi, TransportMode mode) const;
-
-  // Density with which sample() draws wi from wo (Radiance) or wo from wi (Importance); delta
-  // lobes contribute nothing.
-  float pdf_solid(vec3 wo, vec3 wi, TransportMode mode) const;
+  // Parts of evaluate().
+  Rgb eval(vec3 wo, vec3 wi, TransportMode mode) const { return evaluate(wo, wi, mode).f; }
+  Rgb eval_cos(vec3 wo, vec3 wi) const { return eval(wo, wi, TransportMode::Radiance); }
+  float pdf_solid(vec3 wo, vec3 wi, TransportMode mode) const {
+    const BsdfEval e = evaluate(wo, wi, mode);
+    return mode == TransportMode::Radiance ? e.pdf_radiance : e.pdf_importance;
+  }
 
   // Draws the direction on the other side of `from`; nullopt when the walk is absorbed.
   std::optional<BsdfSample> sample(vec3 from, float u_lobe, vec2 u, TransportMode mode) const;
@@ -60,15 +69,28 @@ class BsdfView {
   vec3 ng() const { return ng_; }
 
  private:
+  std::optional<BsdfSample> sample_direction(const Lobe& lobe, vec3 from, float u_event, vec2 u,
+                                             TransportMode mode) const;
+  std::optional<BsdfSample> sample_event(const Lobe& lobe, float chosen, vec3 from, float u,
+                                         TransportMode mode) const;
+
   std::span<const Lobe> lobes_;
   vec3 ng_;
 };
 
 inline constexpr int kMaxLobes = 8;
 
-// Owning storage for up to kMaxLobes lobes.
+// Owning storage for up to kMaxLobes lobes. A copy costs what its lobes cost.
 class Bsdf {
  public:
+  Bsdf() = default;
+  Bsdf(const Bsdf& other) { *this = other; }
+  Bsdf& operator=(const Bsdf& other) {
+    count_ = other.count_;
+    std::copy_n(other.lobes_, count_, lobes_);
+    return *this;
+  }
+
   // Adds a lobe; false if the store is full (the compiler has said so in a diagnostic).
   bool add(const Lobe& lobe) {
     if (count_ == kMaxLobes) {
@@ -77,15 +99,16 @@ class Bsdf {
     lobes_[count_++] = lobe;
     return true;
   }
-  // Sets the selection probabilities in proportion to the lobes' average weights.
+  // Sets the selection probabilities by the lobes' albedos.
   void finish();
 
-  BsdfView view(vec3 ng) const { return {std::span(lobes_.data(), count_), ng}; }
+  BsdfView view(vec3 ng) const { return {lobes(), ng}; }
+  std::span<const Lobe> lobes() const { return {lobes_, static_cast<size_t>(count_)}; }
   int size() const { return count_; }
 
  private:
-  std::array<Lobe, kMaxLobes> lobes_;
   int count_ = 0;
+  Lobe lobes_[kMaxLobes];  // not initialised beyond the count
 };
 
 }  // namespace janus
