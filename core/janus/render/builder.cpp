@@ -66,6 +66,10 @@ class Commit {
       if (instance.materials.empty()) {
         instance.materials.push_back(0);
       }
+      for (const uint32_t program : instance.materials) {
+        instance.opaque = instance.opaque && !scene_.programs[program].has_transparency();
+      }
+      scene_.has_transparency = scene_.has_transparency || !instance.opaque;
       scene_.instances.push_back(std::move(instance));
     }
   }
@@ -119,7 +123,7 @@ class Commit {
       return;
     }
     const Program program = compile(*world.graph, world.name, scene_.diagnostics);
-    if (!program.instructions.empty()) {
+    if (!program.lobes.empty()) {
       scene_.diagnostics.push_back(
           {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
     }

@@ -6,7 +6,7 @@
 // space, away from the surface. Values have these roles from both walks; pdfs are per solid angle.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -31,12 +31,17 @@ struct BsdfSample {
   float eta_scale = 1.0f;
 };
 
+// Value and densities for a pair of directions, of the lobes that are not deltas.
 struct BsdfEval {
-  Rgb f;
+  // sum of f_l |wi . N_l| in Cycles' meaning; in Importance mode times |wo . Ng| / |wi . Ng|, the
+  // cosine that a light subpath needs with shading normals (Veach 1997, eq. 5.18).
+  Rgb f = Rgb(0.0f);
+  // Density with which sample() draws wi from wo in Radiance, and wo from wi in Importance mode.
   float pdf_radiance = 0.0f, pdf_importance = 0.0f;
 };
 
-// A view of lobes at a point with geometric normal `ng` (unit, front side).
+// A view of lobes at a point with geometric normal `ng` (unit, front side). Lobes of a cache may
+// leave out the deltas of the Bsdf that they come from.
 class BsdfView {
  public:
   BsdfView(std::span<const Lobe> lobes, vec3 ng) : lobes_(lobes), ng_(ng) {}
@@ -47,47 +52,48 @@ class BsdfView {
   // True if some lobe scatters to the other side of Ng.
   bool transmits() const;
 
-  // sum of f_l |wi . N_l| over the lobes that are not deltas (Cycles' meaning of a closure).
-  Rgb eval_cos(vec3 wo, vec3 wi) const;
+  // A rough estimate of the largest value of f without the cosine, for roulette.
+  float peak() const;
 
-  // eval_cos in Radiance mode. In Importance mode times |wo . Ng| / |wi . Ng|: the cosine that a
-  // light subpath needs with shading normals (Veach 1997, eq. 5.18).
-  Rgb eval(vec3 wo, vec3 wi, TransportMode mode) const;
+  BsdfEval evaluate(vec3 wo, vec3 wi, TransportMode mode) const;
 
-  BsdfEval evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
-    return {eval(wo, wi, mode), pdf_solid(wo, wi, TransportMode::Radiance),
-            pdf_solid(wo, wi, TransportMode::Importance)};
+  // Parts of evaluate().
+  Rgb eval(vec3 wo, vec3 wi, TransportMode mode) const { return evaluate(wo, wi, mode).f; }
+  Rgb eval_cos(vec3 wo, vec3 wi) const { return eval(wo, wi, TransportMode::Radiance); }
+  float pdf_solid(vec3 wo, vec3 wi, TransportMode mode) const {
+    const BsdfEval e = evaluate(wo, wi, mode);
+    return mode == TransportMode::Radiance ? e.pdf_radiance : e.pdf_importance;
   }
-
-  // Density with which sample() draws wi from wo (Radiance) or wo from wi (Importance); delta
-  // lobes contribute nothing.
-  float pdf_solid(vec3 wo, vec3 wi, TransportMode mode) const;
 
   // Draws the direction on the other side of `from`; nullopt when the walk is absorbed.
   std::optional<BsdfSample> sample(vec3 from, float u_lobe, vec2 u, TransportMode mode) const;
-
-  // A cheap estimate of the largest value of f (without the cosine), for roulette.
-  float peak() const {
-    float sum = 0.0f;
-    for (const Lobe& lobe : lobes_) {
-      sum += is_delta(lobe) ? 0.0f : max_component(lobe.weight) * kInvPi;
-    }
-    return sum;
-  }
 
   std::span<const Lobe> lobes() const { return lobes_; }
   vec3 ng() const { return ng_; }
 
  private:
+  std::optional<BsdfSample> sample_direction(const Lobe& lobe, vec3 from, float u_event, vec2 u,
+                                             TransportMode mode) const;
+  std::optional<BsdfSample> sample_event(const Lobe& lobe, float chosen, vec3 from, float u,
+                                         TransportMode mode) const;
+
   std::span<const Lobe> lobes_;
   vec3 ng_;
 };
 
 inline constexpr int kMaxLobes = 8;
 
-// Owning storage for up to kMaxLobes lobes.
+// Owning storage for up to kMaxLobes lobes. A copy costs what its lobes cost.
 class Bsdf {
  public:
+  Bsdf() = default;
+  Bsdf(const Bsdf& other) { *this = other; }
+  Bsdf& operator=(const Bsdf& other) {
+    count_ = other.count_;
+    std::copy_n(other.lobes_, count_, lobes_);
+    return *this;
+  }
+
   // Adds a lobe; false if the store is full (the compiler has said so in a diagnostic).
   bool add(const Lobe& lobe) {
     if (count_ == kMaxLobes) {
@@ -98,19 +104,19 @@ class Bsdf {
   }
   void clear() { count_ = 0; }
 
-  // An estimate of the share of light that the lobes scatter.
-  float albedo() const { return albedo_; }
+  // An estimate of the share of light that is scattered.
+  float albedo() const;
 
-  // Sets the selection probabilities in proportion to the lobes' average weights.
+  // Sets the selection probabilities by the lobes' albedos.
   void finish();
 
-  BsdfView view(vec3 ng) const { return {std::span(lobes_.data(), count_), ng}; }
+  BsdfView view(vec3 ng) const { return {lobes(), ng}; }
+  std::span<const Lobe> lobes() const { return {lobes_, static_cast<size_t>(count_)}; }
   int size() const { return count_; }
 
  private:
-  std::array<Lobe, kMaxLobes> lobes_;
   int count_ = 0;
-  float albedo_ = 0.0f;
+  Lobe lobes_[kMaxLobes];  // not initialised beyond the count
 };
 
 }  // namespace janus

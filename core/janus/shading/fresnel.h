@@ -22,6 +22,28 @@ inline float fresnel_dielectric(float cos_i, float eta) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
+// Reflectance of a dielectric at normal incidence, F0, and the index > 1 that has it.
+inline float fresnel_normal(float eta) { return sqr((eta - 1.0f) / (eta + 1.0f)); }
+inline float index_from_fresnel_normal(float f0) {
+  const float root = std::sqrt(std::clamp(f0, 0.0f, 0.99f));
+  return (1.0f + root) / (1.0f - root);
+}
+
+// Reflectance averaged over the hemisphere (weight 2 cos): a fit by Kulla & Conty, "Revisiting
+// Physically Based Shading at Imageworks" (2017), which Cycles uses.
+inline float fresnel_dielectric_average(float eta) {
+  if (eta < 1.0f) {
+    return 0.997118f + eta * (0.1014f - eta * (0.965241f + eta * 0.130607f));
+  }
+  return (eta - 1.0f) / (4.08567f + 1.00071f * eta);
+}
+
+// (1 - cos)^5, the shape of Schlick's approximation.
+inline float schlick(float cos) {
+  const float m = std::clamp(1.0f - cos, 0.0f, 1.0f);
+  return sqr(sqr(m)) * m;
+}
+
 // Mirrors `w` (pointing away from the surface) about unit `n`.
 inline vec3 reflect_about(vec3 w, vec3 n) { return 2.0f * dot(w, n) * n - w; }
 

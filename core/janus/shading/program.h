@@ -12,22 +12,20 @@ namespace janus {
 struct ShadingResult {
   Bsdf bsdf;
   Rgb emission = Rgb(0.0f);  // radiance, on both sides
+  // Share of the light that passes straight through (Transparent BSDF, alpha): not a lobe, but a
+  // crossing, which belongs to the walk.
   Rgb transparency = Rgb(0.0f);
 };
 
-// A compiled node graph. Its inputs are constants, so what is left of the graph is the list of
-// closures with their shares; run() places them on the surface.
+// A compiled node graph. Its inputs are constants, so what is left of the graph is its lobes;
+// run() places them on the surface.
 class Program {
  public:
-  struct Instruction {
-    LobeType type;
-    Rgb weight;
-    float ior = 1.0f;
-  };
-
-  std::vector<Instruction> instructions;
+  std::vector<Lobe> lobes;  // with selection probabilities, without normals; at most kMaxLobes
   Rgb emission = Rgb(0.0f);
   Rgb transparency = Rgb(0.0f);
+
+  bool has_transparency() const { return !is_black(transparency); }
 
   // `normal`: shading normal on the front side, unit.
   ShadingResult run(vec3 normal) const {
@@ -37,10 +35,10 @@ class Program {
   }
   void run(vec3 normal, ShadingResult& result) const {
     result.bsdf.clear();
-    for (const Instruction& i : instructions) {
-      result.bsdf.add(Lobe{i.type, i.weight, normal, i.ior, 0.0f});
+    for (Lobe lobe : lobes) {
+      lobe.normal = normal;
+      result.bsdf.add(lobe);
     }
-    result.bsdf.finish();
     result.emission = emission;
     result.transparency = transparency;
   }

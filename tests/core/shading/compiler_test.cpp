@@ -32,29 +32,138 @@ TEST(Compiler, EachClosure) {
   struct Case {
     NodeGraph graph;
     LobeType type;
-    float ior;
+    Rgb weight;
+    float ior, alpha;
   };
   const Rgb color(0.1f, 0.2f, 0.3f);
-  for (const Case& c :
-       {Case{diffuse(color), LobeType::Diffuse, 1}, Case{mirror(color), LobeType::Mirror, 1},
-        Case{glass(color, 1.7f), LobeType::Dielectric, 1.7f}}) {
+  const vec4 input(color, 1);
+  for (const Case& c : {
+           Case{diffuse(color), LobeType::Diffuse, color, 1, 0},
+           Case{single("BSDF_DIFFUSE", {{"Color", input}, {"Roughness", 0.3f}}),
+                LobeType::OrenNayar, color, 1, 0},
+           Case{mirror(color), LobeType::Glossy, color, 1, 0},
+           Case{single("BSDF_GLOSSY", {{"Color", input}, {"Roughness", 0.5f}}), LobeType::Glossy,
+                color, 1, 0.25f},
+           Case{glass(color, 1.7f), LobeType::Glass, Rgb(1), 1.7f, 0},
+           Case{single("BSDF_REFRACTION", {{"Color", input}, {"IOR", 1.3f}}), LobeType::Refraction,
+                color, 1.3f, 0},
+           Case{single("BSDF_TRANSLUCENT", {{"Color", input}}), LobeType::Translucent, color, 1, 0},
+       }) {
     const Compiled result = compiled(c.graph);
     EXPECT_TRUE(result.diagnostics.empty());
-    ASSERT_EQ(result.program.instructions.size(), 1u);
-    EXPECT_EQ(result.program.instructions[0].type, c.type);
-    EXPECT_EQ(result.program.instructions[0].weight, color);
-    EXPECT_FLOAT_EQ(result.program.instructions[0].ior, c.ior);
+    ASSERT_EQ(result.program.lobes.size(), 1u);
+    const Lobe& lobe = result.program.lobes[0];
+    EXPECT_EQ(lobe.type, c.type);
+    EXPECT_EQ(lobe.weight, c.weight);
+    EXPECT_FLOAT_EQ(lobe.ior, c.ior);
+    EXPECT_FLOAT_EQ(lobe.alpha, c.alpha);
+    EXPECT_FALSE(result.program.has_transparency());
   }
   for (const char* type : {"EMISSION", "BACKGROUND"}) {
     const Compiled result = compiled(single(type, {{"Color", vec4(color, 1)}, {"Strength", 2.0f}}));
     EXPECT_EQ(result.program.emission, 2.0f * color);
-    EXPECT_TRUE(result.program.instructions.empty() && result.diagnostics.empty());
+    EXPECT_TRUE(result.program.lobes.empty() && result.diagnostics.empty());
   }
 }
 
+TEST(Compiler, TransparencyIsNoLobe) {
+  const Rgb color(0.1f, 0.2f, 0.3f);
+  const NodeGraph transparent = single("BSDF_TRANSPARENT", {{"Color", vec4(color, 1)}});
+  const Compiled alone = compiled(transparent);
+  EXPECT_TRUE(alone.program.lobes.empty() && alone.diagnostics.empty());
+  EXPECT_EQ(alone.program.transparency, color);
+  EXPECT_TRUE(alone.program.has_transparency());
+  const Compiled mixed = compiled(combine("MIX_SHADER", diffuse(Rgb(1)), transparent, 0.25f));
+  EXPECT_EQ(mixed.program.run(vec3(0, 0, 1)).transparency, 0.25f * color);
+  EXPECT_FLOAT_EQ(mixed.program.lobes[0].weight.x, 0.75f);
+}
+
+TEST(Compiler, Distributions) {
+  const auto with = [](const char* type, const char* distribution, float roughness) {
+    NodeGraph graph = single(type, {{"Roughness", roughness}});
+    graph.nodes[0].properties["distribution"] = distribution;
+    return compiled(graph);
+  };
+  for (const char* type : {"BSDF_GLOSSY", "BSDF_GLASS"}) {
+    EXPECT_FALSE(with(type, "GGX", 0.5f).program.lobes[0].multiscatter);
+    EXPECT_TRUE(with(type, "MULTI_GGX", 0.5f).program.lobes[0].multiscatter);
+  }
+  for (const char* type : {"BSDF_GLOSSY", "BSDF_REFRACTION"}) {
+    const Compiled beckmann = with(type, "BECKMANN", 0.5f);
+    EXPECT_TRUE(warned(beckmann, "Shader", "BECKMANN"));
+    EXPECT_FLOAT_EQ(beckmann.program.lobes[0].alpha, 0.25f);
+    EXPECT_TRUE(with(type, "BECKMANN", 0).diagnostics.empty());  // all are smooth alike
+  }
+}
+
+// Principled BSDF: parts and what they leave to the next.
+TEST(Compiler, Principled) {
+  const Rgb base(0.9f, 0.4f, 0.1f);
+  const auto principled = [&](std::map<std::string, NodeInput> inputs) {
+    inputs["Base Color"] = vec4(base, 1);
+    return compiled(single("BSDF_PRINCIPLED", std::move(inputs)));
+  };
+  const Compiled plain = principled({});
+  EXPECT_TRUE(plain.diagnostics.empty());
+  ASSERT_EQ(plain.program.lobes.size(), 2u);
+  EXPECT_EQ(plain.program.lobes[0].type, LobeType::Specular);
+  EXPECT_FLOAT_EQ(plain.program.lobes[0].alpha, 0.25f);
+  EXPECT_TRUE(plain.program.lobes[0].multiscatter);
+  EXPECT_EQ(plain.program.lobes[1].type, LobeType::Diffuse);
+  EXPECT_TRUE(plain.program.lobes[1].layered);
+  EXPECT_EQ(plain.program.lobes[1].weight, base);
+  EXPECT_EQ(plain.program.emission, Rgb(0));
+
+  const Compiled parts = principled({{"Alpha", 0.8f},
+                                     {"Metallic", 0.5f},
+                                     {"Transmission Weight", 0.25f},
+                                     {"Emission Strength", 2.0f},
+                                     {"Diffuse Roughness", 0.4f}});
+  ASSERT_EQ(parts.program.lobes.size(), 4u);
+  const auto& lobes = parts.program.lobes;
+  EXPECT_EQ(lobes[0].type, LobeType::Metal);
+  EXPECT_NEAR(lobes[0].weight.x, 0.4, 1e-6);
+  EXPECT_EQ(lobes[0].color, base);
+  EXPECT_EQ(lobes[1].type, LobeType::Glass);
+  EXPECT_NEAR(lobes[1].weight.x, 0.1, 1e-6);
+  EXPECT_NEAR(lobes[1].color.y, std::sqrt(0.4f), 1e-6);
+  EXPECT_NEAR(lobes[2].weight.x, 0.3, 1e-6);
+  EXPECT_EQ(lobes[3].type, LobeType::OrenNayar);
+  EXPECT_NEAR(lobes[3].weight.x, 0.27, 1e-6);
+  EXPECT_NEAR(parts.program.transparency.x, 0.2, 1e-6);
+  EXPECT_NEAR(parts.program.emission.x, 1.6, 1e-6);
+
+  EXPECT_EQ(principled({{"Metallic", 1.0f}}).program.lobes.size(), 1u);
+  // No layer, nothing to attenuate: level 0 has the index 1.
+  const Compiled bare = principled({{"Specular IOR Level", 0.0f}});
+  ASSERT_EQ(bare.program.lobes.size(), 1u);
+  EXPECT_FALSE(bare.program.lobes[0].layered);
+  // Level 1 doubles F0.
+  const Compiled shiny = principled({{"Specular IOR Level", 1.0f}});
+  const float eta = shiny.program.lobes[0].ior;
+  EXPECT_NEAR(sqr((eta - 1) / (eta + 1)), 0.08, 1e-5);
+}
+
+TEST(Compiler, PrincipledNamesWhatIsLeftOut) {
+  const std::pair<const char*, const char*> limits[] = {
+      {"Subsurface Weight", "subsurface"}, {"Coat Weight", "coat"},
+      {"Sheen Weight", "sheen"},           {"Thin Film Thickness", "thin film"},
+      {"Anisotropic", "anisotropy"},       {"Specular Tint", "specular tint"}};
+  for (const auto& [socket, message] : limits) {
+    EXPECT_TRUE(warned(compiled(single("BSDF_PRINCIPLED", {{socket, 0.5f}})), "Shader", message));
+    EXPECT_TRUE(warned(compiled(single("BSDF_PRINCIPLED", {{socket, link("Noise")}})), "Shader",
+                       "is linked to 'Noise'"));
+  }
+  EXPECT_TRUE(warned(compiled(single("BSDF_GLASS", {{"Thin Film Thickness", 300.0f}})), "Shader",
+                     "thin film"));
+  EXPECT_TRUE(
+      warned(compiled(single("BSDF_GLOSSY", {{"Anisotropy", 0.5f}})), "Shader", "anisotropy"));
+  EXPECT_TRUE(warned(compiled(single("HOLDOUT", {})), "Shader", "HOLDOUT"));
+}
+
 TEST(Compiler, OmittedInputsTakeTheDeclaredDefaults) {
-  EXPECT_EQ(compiled(single("BSDF_DIFFUSE", {})).program.instructions[0].weight, Rgb(0.8f));
-  EXPECT_FLOAT_EQ(compiled(single("BSDF_GLASS", {})).program.instructions[0].ior, 1.5f);
+  EXPECT_EQ(compiled(single("BSDF_DIFFUSE", {})).program.lobes[0].weight, Rgb(0.8f));
+  EXPECT_FLOAT_EQ(compiled(single("BSDF_GLASS", {})).program.lobes[0].ior, 1.5f);
   EXPECT_EQ(compiled(single("EMISSION", {})).program.emission, Rgb(1.0f));
 }
 
@@ -69,7 +178,7 @@ TEST(Compiler, KnowsEveryDeclaredNode) {
 
 TEST(Compiler, UnknownNodesAreBlackAndNamed) {
   const Compiled result = compiled(single("BSDF_NOVELTY", {}));
-  EXPECT_TRUE(result.program.instructions.empty());
+  EXPECT_TRUE(result.program.lobes.empty());
   EXPECT_EQ(result.program.emission, Rgb(0));
   EXPECT_TRUE(warned(result, "Shader", "BSDF_NOVELTY"));
 }
@@ -79,8 +188,8 @@ TEST(Compiler, MixAndAddShares) {
   const auto weights = [&](const char* type, float factor) {
     const Program p = compiled(combine(type, diffuse(a), mirror(b), factor)).program;
     vec2 out(0);
-    for (const auto& i : p.instructions) {
-      out[i.type == LobeType::Mirror] += i.weight.x;
+    for (const auto& i : p.lobes) {
+      out[i.type == LobeType::Glossy] += i.weight.x;
     }
     return out;
   };
@@ -98,27 +207,24 @@ TEST(Compiler, MixedEmissionAndMissingLinks) {
   NodeGraph half;  // one socket of the mix is empty, the other leads nowhere
   half.nodes = {node("Top", "MIX_SHADER", {{"Shader_001", link("Missing")}})};
   half.surface = NodeLink{"Top", "Shader"};
-  EXPECT_TRUE(compiled(half).program.instructions.empty());
-  EXPECT_TRUE(compiled(NodeGraph{}).program.instructions.empty());
+  EXPECT_TRUE(compiled(half).program.lobes.empty());
+  EXPECT_TRUE(compiled(NodeGraph{}).program.lobes.empty());
   half.surface = NodeLink{"Nobody", "BSDF"};
-  EXPECT_TRUE(compiled(half).program.instructions.empty());
+  EXPECT_TRUE(compiled(half).program.lobes.empty());
 }
 
 TEST(Compiler, SaysWhatItCannotDo) {
-  EXPECT_TRUE(
-      warned(compiled(single("BSDF_GLOSSY", {{"Roughness", 0.3f}})), "Shader", "roughness"));
   EXPECT_TRUE(warned(compiled(single("BSDF_DIFFUSE", {{"Color", link("Noise", "Color")}})),
                      "Shader", "'Color' is linked to 'Noise'"));
   EXPECT_TRUE(warned(compiled(single("BSDF_DIFFUSE", {{"Normal", link("Bump", "Normal")}})),
                      "Shader", "'Normal' is linked to 'Bump'"));
-  EXPECT_TRUE(warned(compiled(single("BSDF_PRINCIPLED", {})), "Shader", "Principled"));
   const Compiled bad = compiled(single("BSDF_DIFFUSE", {{"Color", vec4(NAN, 0, 0, 1)}}));
   EXPECT_TRUE(warned(bad, "Shader", "not a finite number"));
-  EXPECT_EQ(bad.program.instructions[0].weight, Rgb(0.8f));
+  EXPECT_EQ(bad.program.lobes[0].weight, Rgb(0.8f));
 }
 
 TEST(Compiler, NegativeColoursDoNotDarken) {
-  EXPECT_TRUE(compiled(diffuse(Rgb(-1))).program.instructions.empty());
+  EXPECT_TRUE(compiled(diffuse(Rgb(-1))).program.lobes.empty());
   EXPECT_EQ(compiled(emission(Rgb(-1, 1, 1), 2)).program.emission, Rgb(0, 2, 2));
 }
 
@@ -129,7 +235,7 @@ TEST(Compiler, CutsCycles) {
   graph.surface = NodeLink{"Loop", "Shader"};
   const Compiled result = compiled(graph);
   EXPECT_TRUE(warned(result, "Loop", "cycle"));
-  EXPECT_EQ(result.program.instructions.size(), 1u);
+  EXPECT_EQ(result.program.lobes.size(), 1u);
 }
 
 // Sixty nodes, each of which uses the next one twice: 2^60 ways to the last.
@@ -155,7 +261,7 @@ TEST(Compiler, TooManyClosures) {
   }
   graph.surface = NodeLink{"A0", "Shader"};
   const Compiled result = compiled(graph);
-  EXPECT_EQ(result.program.instructions.size(), static_cast<size_t>(kMaxLobes));
+  EXPECT_EQ(result.program.lobes.size(), static_cast<size_t>(kMaxLobes));
   EXPECT_TRUE(warned(result, "D" + std::to_string(kMaxLobes), "left out"));
 }
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How single lobes scatter; BsdfView puts them together.
+#pragma once
+
+#include <optional>
+
+#include "janus/shading/bsdf.h"
+
+namespace janus {
+
+// A pair of directions at a point, with their cosines to Ng, which decide the sides.
+struct Directions {
+  vec3 wo, wi;
+  float wo_ng, wi_ng;
+
+  bool same_side() const { return wo_ng * wi_ng > 0.0f; }
+};
+
+// Of one lobe, without its probability of being chosen: f |wi . N| as the camera sees it, and the
+// densities per solid angle of drawing wi from wo and wo from wi.
+struct LobeEval {
+  Rgb f = Rgb(0.0f);
+  float pdf_radiance = 0.0f, pdf_importance = 0.0f;
+};
+
+// For lobes that are not deltas.
+LobeEval evaluate_lobe(const Lobe& lobe, const Directions& d);
+
+// Draws the direction opposite to `from` of a lobe that is no delta, with the densities above;
+// nullopt: absorbed.
+std::optional<vec3> sample_lobe(const Lobe& lobe, vec3 ng, vec3 from, float u_event, vec2 u,
+                                TransportMode mode);
+
+// One event of a delta lobe: the value is `color` times a delta in solid angle of the camera walk.
+struct DeltaEvent {
+  vec3 direction;
+  Rgb color;          // value / probability, without pmf and without adjoint factors
+  float probability;  // of this event of the lobe, the same from both sides
+  float eta = 1.0f;   // refraction: index of the far side / index of the side of `from`
+  bool transmitted = false;
+  vec3 normal;  // on the side of `from`
+};
+std::optional<DeltaEvent> sample_delta(const Lobe& lobe, vec3 from, float from_ng, float u);
+
+// Albedo estimate for a direction at cosine `cos`: what lobes are chosen by.
+float estimated_albedo(const Lobe& lobe, float cos);
+
+// Share of light that reaches a layered lobe, as seen from a camera direction at cosine `cos_o`.
+float layer_transmittance(const Lobe& lobe, float cos_o);
+
+// Colour of the light that leaves after several bounces between facets, for single bounces of
+// average reflectance `fss` and facets of average albedo `average` (Kulla & Conty 2017).
+inline Rgb multiple_bounces(Rgb fss, float average) {
+  return fss * average / (1.0f - fss * (1.0f - average));
+}
+float specular_bounces(float eta, float rough);
+
+}  // namespace janus

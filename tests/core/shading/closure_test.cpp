@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the lobes look like: albedos, limits, and the tables behind them.
+#include <gtest/gtest.h>
+
+#include "janus/shading/albedo.h"
+#include "janus/shading/diffuse.h"
+#include "janus/shading/fresnel.h"
+#include "shading/lobes.h"
+
+namespace janus::test {
+namespace {
+
+const Rgb kWhite(1);
+
+// The table by an independent way: the reflection's value over the hemisphere.
+TEST(AlbedoTables, AreTheIntegralsOfTheLobes) {
+  for (const int x : {12, 20, 31}) {
+    for (const int y : {6, 15, 31}) {  // entries, where nothing is interpolated
+      const float rough = x / 31.0f, mu = y / 31.0f;
+      const Bsdf lobe = make({glossy_lobe(kWhite, sqr(rough))});
+      EXPECT_NEAR(reflection_albedo(rough, mu), integrated(lobe.view(kNg), at_cosine(mu)), 1.5e-3)
+          << rough << " " << mu;
+    }
+  }
+  for (const int x : {7, 11, 15}) {
+    for (const int y : {4, 9, 15}) {
+      for (const int z : {3, 7, 10}) {
+        const float rough = x / 15.0f, mu = y / 15.0f, z2 = sqr(z / 15.0f);
+        const float ior = (1 + z2) / (1 - z2);
+        const Bsdf lobe = make({glass_lobe(kWhite, kWhite, true, ior, sqr(rough))});
+        const Mean outside = albedo(lobe.view(kNg), at_cosine(mu), 20000),
+                   inside = albedo(lobe.view(kNg), at_cosine(-mu), 20000);
+        EXPECT_NEAR(glass_albedo(rough, mu, ior), outside.mean(), 1e-3 + 4 * outside.error())
+            << rough << " " << mu << " " << ior;
+        // From within the table counts light that the surface sends nowhere.
+        EXPECT_GE(glass_albedo(rough, mu, 1 / ior), inside.mean() - 4 * inside.error());
+      }
+    }
+  }
+}
+
+TEST(AlbedoTables, Averages) {
+  for (const int x : {5, 18, 31}) {
+    double sum = 0;
+    constexpr int kSteps = 31;
+    for (int i = 0; i < 10 * kSteps; ++i) {
+      const float mu = (i + 0.5f) / (10 * kSteps);
+      sum += 2 * mu * reflection_albedo(x / 31.0f, mu) / (10 * kSteps);
+    }
+    EXPECT_NEAR(reflection_albedo_average(x / 31.0f), sum, 1e-3);
+  }
+  for (const float eta : {1.5f, 1 / 1.5f}) {
+    double sum = 0;
+    for (int i = 0; i < 300; ++i) {
+      const float mu = (i + 0.5f) / 300;
+      sum += 2 * mu * glass_albedo(0.8f, mu, eta) / 300;
+    }
+    EXPECT_NEAR(glass_albedo_average(0.8f, eta), sum, 2e-3);
+  }
+}
+
+TEST(AlbedoTables, SmoothReflectanceIsFresnels) {
+  for (const float mu : {0.2f, 0.4f, 0.8f, 1.0f}) {  // entries
+    for (const float eta : {1.2f, 1.5f, 2.0f}) {
+      EXPECT_NEAR(dielectric_reflectance(0, mu, eta), fresnel_dielectric(mu, eta), 0.01);
+    }
+  }
+  EXPECT_TRUE(std::isfinite(dielectric_reflectance(NAN, NAN, 1.5f)));
+  EXPECT_EQ(reflection_albedo(0, 0.3f), 1.0f);
+  EXPECT_EQ(reflection_albedo(2, 2), reflection_albedo(1, 1));
+}
+
+// Mirrors lose nothing, rough single scattering does, Multiscatter GGX gives it back.
+TEST(Furnace, Glossy) {
+  for (const float mu : {0.2f, 0.6f, 0.95f}) {
+    for (const float roughness : {0.2f, 0.5f, 0.8f, 1.0f}) {
+      const vec3 wo = at_cosine(mu);
+      const float alpha = sqr(roughness);
+      const Mean single = albedo(make({glossy_lobe(kWhite, alpha)}).view(kNg), wo, 20000);
+      const Mean multiple = albedo(make({glossy_lobe(kWhite, alpha, true)}).view(kNg), wo, 60000);
+      EXPECT_LT(single.mean(), 1 + 1e-6);
+      EXPECT_NEAR(multiple.mean(), 1, 0.01) << mu << " " << roughness;
+    }
+  }
+}
+
+TEST(Furnace, Glass) {
+  for (const float mu : {0.3f, 0.6f, 0.95f}) {
+    for (const float roughness : {0.2f, 0.5f, 0.9f}) {
+      const float alpha = sqr(roughness);
+      for (const float ior : {1.33f, 1.5f}) {
+        const Bsdf multiple = make({glass_lobe(kWhite, kWhite, true, ior, alpha, true)});
+        EXPECT_NEAR(albedo(multiple.view(kNg), at_cosine(mu), 20000).mean(), 1, 0.01)
+            << mu << " " << roughness << " " << ior;
+        EXPECT_LT(albedo(multiple.view(kNg), at_cosine(-mu), 20000).mean(), 1.01);
+        const Bsdf single = make({glass_lobe(kWhite, kWhite, true, ior, alpha)});
+        EXPECT_LT(albedo(single.view(kNg), at_cosine(-mu), 20000).mean(), 1 + 1e-6);
+      }
+    }
+  }
+}
+
+TEST(Furnace, RoughDiffuse) {
+  for (const float mu : {0.05f, 0.4f, 1.0f}) {
+    for (const float roughness : {0.0f, 0.3f, 1.0f}) {
+      const Bsdf white = make({oren_nayar_lobe(kWhite, kWhite, roughness)});
+      EXPECT_NEAR(integrated(white.view(kNg), at_cosine(mu)), 1, 0.005) << mu << " " << roughness;
+      const Bsdf grey = make({oren_nayar_lobe(Rgb(0.5f), Rgb(0.5f), roughness)});
+      EXPECT_LT(integrated(grey.view(kNg), at_cosine(mu)), 0.505);
+    }
+  }
+  // Roughness 0 is Lambert.
+  Random random(4);
+  const Bsdf a = make({oren_nayar_lobe(Rgb(0.7f), Rgb(0.7f), 0)}),
+             b = make({diffuse_lobe(Rgb(0.7f))});
+  for (int i = 0; i < 100; ++i) {
+    const vec3 wo = random.direction(), wi = random.direction();
+    EXPECT_NEAR(a.view(kNg).eval_cos(wo, wi).x, b.view(kNg).eval_cos(wo, wi).x, 1e-6);
+  }
+  for (float x = 0; x <= 1; x += 0.01f) {
+    EXPECT_NEAR(arc_cosine(x), std::acos(x), 2e-7);
+  }
+}
+
+// Dielectric layer over white diffuse: Cycles' principled white surface keeps nearly everything.
+TEST(Furnace, Layers) {
+  for (const float mu : {0.1f, 0.5f, 1.0f}) {
+    for (const float roughness : {0.0f, 0.5f, 1.0f}) {
+      const Lobe layer = specular_lobe(kWhite, 1.5f, sqr(roughness), true);
+      const Bsdf bsdf = make({layer, below(diffuse_lobe(kWhite), layer)});
+      EXPECT_NEAR(albedo(bsdf.view(kNg), at_cosine(mu), 20000).mean(), 1, 0.03)
+          << mu << " " << roughness;
+    }
+  }
+}
+
+TEST(Metal, ReflectanceIsSchlicks) {
+  const Rgb f0(0.9f, 0.5f, 0.2f);
+  for (const float mu : {1.0f, 0.4f, 0.1f}) {
+    const Bsdf smooth = make({metal_lobe(kWhite, f0, 0)});
+    const auto s =
+        smooth.view(kNg).sample(at_cosine(mu), 0.5f, vec2(0.5f), TransportMode::Radiance);
+    ASSERT_TRUE(s && s->delta);
+    EXPECT_NEAR(glm::length(s->weight - (f0 + (1.0f - f0) * schlick(mu))), 0, 1e-5);
+  }
+}
+
+// The narrower a lobe, the nearer it is to its delta: the light of a cone around the smooth
+// direction, in both walks.
+TEST(SmoothLimit, IsContinuous) {
+  struct Case {
+    Lobe rough, smooth;
+  };
+  const float alpha = 2e-4f;
+  const Case cases[] = {{glossy_lobe(kWhite, alpha, true), glossy_lobe(kWhite, 0, true)},
+                        {specular_lobe(kWhite, 1.5f, alpha), specular_lobe(kWhite, 1.5f, 0)},
+                        {glass_lobe(kWhite, Rgb(0.8f), true, 1.5f, alpha),
+                         glass_lobe(kWhite, Rgb(0.8f), true, 1.5f, 0)},
+                        {refraction_lobe(kWhite, 1.45f, alpha), refraction_lobe(kWhite, 1.45f, 0)}};
+  for (const Case& c : cases) {
+    EXPECT_FALSE(is_delta(c.rough));
+    EXPECT_TRUE(is_delta(c.smooth));
+    const Bsdf rough = make({c.rough}), smooth = make({c.smooth});
+    for (const TransportMode mode : {TransportMode::Radiance, TransportMode::Importance}) {
+      for (const float z : {0.9f, 0.4f, -0.9f}) {
+        const vec3 from = at_cosine(z, 0.3f);
+        for (const float u : {0.01f, 0.99f}) {  // reflection where there is some, refraction
+          const auto a = rough.view(kNg).sample(from, u, vec2(0.3f, 0.4f), mode);
+          const auto b = smooth.view(kNg).sample(from, 0.5f, vec2(u, 0.4f), mode);
+          ASSERT_EQ(a.has_value(), b.has_value());
+          if (a) {
+            EXPECT_NEAR(glm::length(a->direction - b->direction), 0, 2e-3);
+            EXPECT_NEAR(a->weight.x, b->weight.x, 2e-3 * b->weight.x) << z << " " << u;
+            EXPECT_NEAR(a->pdf_reverse / a->pdf_solid, b->pdf_reverse / b->pdf_solid,
+                        5e-3 * b->pdf_reverse / b->pdf_solid);
+          }
+        }
+      }
+    }
+  }
+}
+
+// Roughness that Cycles takes for smooth, and an index of 1, which has no facets to speak of.
+TEST(SmoothLimit, Thresholds) {
+  EXPECT_TRUE(is_delta(glossy_lobe(kWhite, 1.4e-5f)));
+  EXPECT_FALSE(is_delta(glossy_lobe(kWhite, 1.5e-5f)));
+  EXPECT_TRUE(is_delta(glass_lobe(kWhite, kWhite, true, 1.00005f, 0.3f)));
+  const Bsdf straight = make({glass_lobe(kWhite, Rgb(0.5f), true, 1, 0.3f)});
+  const auto s =
+      straight.view(kNg).sample(at_cosine(0.3f), 0.5f, vec2(0.5f), TransportMode::Radiance);
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(glm::length(s->direction + at_cosine(0.3f)), 0, 1e-5);
+  EXPECT_NEAR(s->weight.x, 0.5, 1e-6);
+}
+
+// Narrow lobes keep their digits: the density integrates to 1 in the plane of the half vector.
+TEST(SmoothLimit, NarrowLobesAreNormalized) {
+  for (const float alpha : {1e-2f, 1e-3f, 1e-4f}) {
+    const Bsdf storage = make({glossy_lobe(kWhite, alpha)});
+    const BsdfView bsdf = storage.view(kNg);
+    // Around normal incidence the lobe is a disk: density times ring, theta = alpha tan(t).
+    double sum = 0;
+    constexpr int kSteps = 2000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double t = (i + 0.5) / kSteps * 1.5707, theta = 2 * alpha * std::tan(t);
+      if (theta > 1.5) {
+        break;
+      }
+      const vec3 wi(std::sin(theta), 0, std::cos(theta));
+      const double width = 2 * alpha / std::pow(std::cos(t), 2) * 1.5707 / kSteps;
+      sum += bsdf.pdf_solid(kNg, wi, TransportMode::Radiance) * 6.2831853 * std::sin(theta) * width;
+    }
+    EXPECT_NEAR(sum, 1, 0.005) << alpha;
+  }
+}
+
+TEST(Lobes, SidesAndFlags) {
+  EXPECT_TRUE(make({translucent_lobe(kWhite)}).view(kNg).transmits());
+  EXPECT_TRUE(make({diffuse_lobe(kWhite), refraction_lobe(kWhite, 1.5f, 0)}).view(kNg).transmits());
+  EXPECT_FALSE(make({diffuse_lobe(kWhite), glossy_lobe(kWhite, 0.1f)}).view(kNg).transmits());
+  EXPECT_LE(sizeof(Lobe), 64u);
+}
+
+}  // namespace
+}  // namespace janus::test
