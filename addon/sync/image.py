@@ -61,7 +61,8 @@ def pixels(image) -> np.ndarray | None:
     if channels < 3:
         return np.repeat(buffer[..., :1], 3, axis=2)
     colors = buffer[..., :3]
-    # Cycles multiplies by a straight alpha before it decodes.
+    # Cycles multiplies bytes by a straight alpha before it decodes them, and rounds down.
     if channels == 4 and not image.is_float and image.alpha_mode == "STRAIGHT":
-        colors = colors * buffer[..., 3:]
+        integers = np.rint(255.0 * buffer).astype(np.int32)
+        colors = (integers[..., :3] * integers[..., 3:] // 255).astype(np.float32) / 255.0
     return np.ascontiguousarray(colors)

@@ -27,7 +27,7 @@ def pictures(tmp_path_factory):
 def test_parity(pictures, case):
     seeds = range(1, light_scenes.SEEDS + 1)
     cycles = [exr.read(pictures / f"{case}_{seed}.exr")[0] for seed in seeds]
-    ours = Captured(pictures / f"{case}.npz").series("pt", 256, 6)
+    ours = Captured(pictures / f"{case}.npz").series("pt", light_scenes.samples(case), 6)
     found = compare(ours, cycles, block=8)
     print(f"{case}, pt against Cycles: {found}")
     found.check(TOLERANCE)
