@@ -76,7 +76,7 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
   const float importance = to_camera->importance();
   const float weight = mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)),
                                         bsdf.pdf_solid(wo, wi, TransportMode::Radiance));
-  return CameraSplat{{v.beta * f * importance, weight,
+  return CameraSplat{{v.beta * f * (importance / to_camera->pmf), weight,
                       offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo), to_camera->target},
                      to_camera->raster};
 }

@@ -22,7 +22,7 @@ struct FullPath {
   std::vector<Scattering> interior;  // z_1 first
   double joint = 0;                  // J
   double pdf_nee = 0;                // pN
-  double pdf_camera_solid = 0;       // of the direction from the camera to z_{k-1}
+  PixelDensity camera_density;       // of z_{k-1}, seen from the lens point
   vec3 camera_center{};
   vec3 to_light{};  // unit, from z_1 to z_0
   bool hittable = false;
@@ -45,7 +45,9 @@ struct FullPath {
   }
   double pr(int i) const {  // density of z_i from the camera side
     if (i == k() - 1) {
-      return pdf_camera_solid * geometry(z(i).p, z(i).ng, camera_center);
+      const vec3 d = camera_center - z(i).p;
+      return janus::camera_density(camera_density, std::abs(dot(z(i).ng, normalize(d))),
+                                   length2(d));
     }
     const double solid = pdf(i + 1, TransportMode::Radiance);
     return i == 0 ? solid : solid * geometry(z(i).p, z(i).ng, z(i + 1).p);
@@ -129,15 +131,9 @@ void set_light(FullPath& path, const LightEnd& end) {
   path.to_light = end.wi;
 }
 
-bool set_camera(FullPath& path, const Camera& camera) {
-  const vec3 p = path.interior.back().p;
-  const auto connection = camera.connect(p, vec2(0.5f), kInfinity);
-  if (!connection) {
-    return false;
-  }
-  path.pdf_camera_solid = connection->density.value;
-  path.camera_center = p + std::sqrt(connection->distance2) * connection->wo;
-  return true;
+void set_camera(FullPath& path, const CameraRay& ray) {
+  path.camera_density = ray.density;
+  path.camera_center = ray.lens;
 }
 
 }  // namespace
@@ -148,10 +144,11 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
   const Mis mis(heuristic, counts);
   WeightCheck check;
   Counters counters;
-  const auto compare = [&](FullPath& path, int s, float weight) {
-    if (!set_camera(path, camera)) {
-      return;
-    }
+  // All paths go through one lens point: the one that the camera walk is going to draw.
+  Sampler sampler(seed, Stream::Camera, index, 0);
+  const vec2 u_lens = Sampler(sampler).next_2d();
+  const auto compare = [&](FullPath& path, int s, float weight, vec2 position) {
+    set_camera(path, camera.sample_ray(position, u_lens));
     const double error = std::abs(weight - path.weight(s, heuristic, counts));
     check.max_error = std::max(check.max_error, error);
     check.sum_error += error;
@@ -167,14 +164,13 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
                         [&](const PathVertex& v, Sampler&) { light.push_back(v); });
   }
   for (int i = 1; i <= static_cast<int>(light.size()) && counts.splat > 0.0f; ++i) {
-    if (const auto splat = connect_to_camera(light[i - 1], camera, vec2(0.5f), kInfinity, mis)) {
+    if (const auto splat = connect_to_camera(light[i - 1], camera, u_lens, kInfinity, mis)) {
       FullPath path = join(light, i, {}, 0);
       set_light(path, light[0].light_end);
-      compare(path, i + 1, splat->connection.weight);
+      compare(path, i + 1, splat->connection.weight, splat->raster);
     }
   }
 
-  Sampler sampler(seed, Stream::Camera, index, 0);
   const auto on_light = [&](const LightFound& found) {
     if (found.edges < 2 || counts.hit == 0.0f) {
       return;
@@ -182,7 +178,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
     FullPath path = join({}, 0, camera_vertices, found.edges - 1);
     set_delta(path.interior.front(), found.previous, TransportMode::Radiance);
     set_light(path, found.end);
-    compare(path, 0, found.weight);
+    compare(path, 0, found.weight, raster);
   };
   const auto on_vertex = [&](const PathVertex& v, Sampler& walk_sampler) {
     camera_vertices.push_back(v);
@@ -191,7 +187,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
       if (const auto nee = connect_to_light(scene, v, mis, walk_sampler)) {
         FullPath path = join({}, 0, camera_vertices, j);
         set_light(path, nee->end);
-        compare(path, 1, nee->connection.weight);
+        compare(path, 1, nee->connection.weight, raster);
       }
     }
     for (int i = 1; i <= static_cast<int>(light.size()) && counts.connection > 0.0f; ++i) {
@@ -202,7 +198,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
       if (const auto connection = connect_vertices(cached, l.bsdf(), v, mis)) {
         FullPath path = join(light, i, camera_vertices, j);
         set_light(path, light[0].light_end);
-        compare(path, i + 1, connection->weight);
+        compare(path, i + 1, connection->weight, raster);
       }
     }
   };
