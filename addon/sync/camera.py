@@ -1,12 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The camera: where it stands and which window it looks through."""
+"""The camera: where it stands, which window it looks through, and its lens."""
 
 import numpy as np
 
 from ..report import RenderRefused
 from .settings import frame_size
 
-REFUSED = {"ORTHO": "orthographic", "PANO": "panoramic", "CUSTOM": "custom"}
+PANORAMAS = {
+    "EQUIANGULAR_CUBEMAP_FACE": "an equiangular cubemap face",
+    "MIRRORBALL": "a mirror ball",
+    "FISHEYE_EQUIDISTANT": "an equidistant fisheye",
+    "FISHEYE_EQUISOLID": "an equisolid fisheye",
+    "FISHEYE_LENS_POLYNOMIAL": "a polynomial fisheye",
+    "CENTRAL_CYLINDRICAL": "a central cylindrical panorama",
+}
 
 
 def sync_camera(builder, depsgraph, log) -> None:
@@ -18,30 +25,81 @@ def sync_camera(builder, depsgraph, log) -> None:
     if camera.type != "CAMERA":
         raise RenderRefused(f"'{camera.name}' is the active camera, but it is no camera object")
     data = camera.data
-    if data.type != "PERSP":
-        kind = REFUSED.get(data.type, data.type.lower())
-        raise RenderRefused(
-            f"Camera '{camera.name}' is {kind}: Janus renders perspective cameras only, so far"
-        )
-    if data.dof.use_dof:
-        log.warning(
-            "depth of field is not supported yet, everything is in focus", object=camera.name
-        )
+    kind = camera_type(camera)
+    transform = without_scale(camera.matrix_world)
+    if kind == "EQUIRECTANGULAR":
+        pano = panorama(data)
+        frame = (pano.longitude_min, pano.longitude_max, pano.latitude_min, pano.latitude_max)
+    else:
+        frame = window(camera, depsgraph, scene.render)
     builder.set_camera(
         name=camera.name,
-        type="PERSP",
-        transform=without_scale(camera.matrix_world),
-        window=window(camera, depsgraph, scene.render),
+        type=kind,
+        transform=transform,
+        window=frame,
         clip_start=data.clip_start,
         clip_end=data.clip_end,
+        **(lens(data, transform, depsgraph) if data.dof.use_dof else {}),
     )
 
 
+def camera_type(camera) -> str:
+    """PERSP, ORTHO or EQUIRECTANGULAR. Raises RenderRefused for all others, with their name."""
+    kind = camera.data.type
+    if kind in ("PERSP", "ORTHO"):
+        return kind
+    what = f"a {kind.lower()} camera"
+    if kind == "PANO":
+        projection = panorama(camera.data).panorama_type
+        if projection == "EQUIRECTANGULAR":
+            return projection
+        what = PANORAMAS.get(projection, f"a panorama of type {projection}")
+    raise RenderRefused(
+        f"Camera '{camera.name}' is {what}: Janus renders perspective, orthographic and "
+        "equirectangular cameras, so far"
+    )
+
+
+def panorama(data):
+    """Where this Blender keeps the settings of panoramas: before 5.0 they were Cycles' own."""
+    return data if hasattr(data, "panorama_type") else data.cycles
+
+
+def lens(data, transform, depsgraph) -> dict:
+    """The arguments of set_camera for depth of field, with sizes as in Cycles.
+
+    The f-stop divides the focal length; an orthographic camera counts as having one of a metre.
+    """
+    dof = data.dof
+    focal_length = 1.0 if data.type == "ORTHO" else 0.001 * data.lens
+    return {
+        "aperture_radius": 0.5 * focal_length / max(dof.aperture_fstop, 1e-5),
+        "focus_distance": focus_distance(dof, transform, depsgraph),
+        "aperture_blades": dof.aperture_blades,
+        "aperture_rotation": dof.aperture_rotation,
+        "aperture_ratio": dof.aperture_ratio,
+    }
+
+
+def focus_distance(dof, transform, depsgraph) -> float:
+    """Along the view axis, to the focus object (or its bone) if there is one."""
+    if dof.focus_object is None:
+        return dof.focus_distance
+    focus = dof.focus_object.evaluated_get(depsgraph)
+    matrix = focus.matrix_world
+    if focus.pose and dof.focus_subtarget in focus.pose.bones:
+        matrix = matrix @ focus.pose.bones[dof.focus_subtarget].matrix
+    to_camera = transform[:3, 3] - np.array(matrix.translation)
+    return float(abs(transform[:3, 2] @ to_camera))
+
+
 def window(camera, depsgraph, render) -> tuple[float, float, float, float]:
-    """(left, right, bottom, top) of the full frame at distance 1 in front of the camera.
+    """(left, right, bottom, top) of the full frame at distance 1 in front of the camera; of an
+    orthographic one in metres.
 
     Blender's own projection matrix decides, so shift, sensor fit and pixel aspect are as there.
     With P[0][0] = 2n/(r-l) and P[0][2] = (r+l)/(r-l), x = (ndc + P[0][2]) / P[0][0] at z = -1.
+    Orthographic: ndc = P[0][0] x + P[0][3].
     """
     width, height = frame_size(render)
     p = camera.calc_matrix_camera(
@@ -51,11 +109,12 @@ def window(camera, depsgraph, render) -> tuple[float, float, float, float]:
         scale_x=render.pixel_aspect_x,
         scale_y=render.pixel_aspect_y,
     )
+    x, y = (-p[0][3], -p[1][3]) if camera.data.type == "ORTHO" else (p[0][2], p[1][2])
     return (
-        (p[0][2] - 1.0) / p[0][0],
-        (p[0][2] + 1.0) / p[0][0],
-        (p[1][2] - 1.0) / p[1][1],
-        (p[1][2] + 1.0) / p[1][1],
+        (x - 1.0) / p[0][0],
+        (x + 1.0) / p[0][0],
+        (y - 1.0) / p[1][1],
+        (y + 1.0) / p[1][1],
     )
 
 

@@ -25,6 +25,9 @@ constexpr EnumName<AreaShape> kAreaShapes[] = {{"SQUARE", AreaShape::Square},
                                                {"DISK", AreaShape::Disk},
                                                {"ELLIPSE", AreaShape::Ellipse}};
 constexpr py::ssize_t kMaxImageSide = 1 << 16;
+constexpr EnumName<CameraType> kCameraTypes[] = {{"PERSP", CameraType::Perspective},
+                                                 {"ORTHO", CameraType::Orthographic},
+                                                 {"EQUIRECTANGULAR", CameraType::Equirectangular}};
 constexpr EnumName<Severity> kSeverities[] = {
     {"INFO", Severity::Info}, {"WARNING", Severity::Warning}, {"ERROR", Severity::Error}};
 
@@ -188,11 +191,10 @@ void set_light(SceneBuilder& self, Key key, std::string name, const std::string&
 
 void set_camera(SceneBuilder& self, std::string name, const std::string& type,
                 const py::object& transform, const std::array<float, 4>& window, float clip_start,
-                float clip_end) {
-  if (type != "PERSP") {
-    throw SceneError(name, "type", "only PERSP cameras can be rendered, not " + type);
-  }
+                float clip_end, float aperture_radius, float focus_distance, int aperture_blades,
+                float aperture_rotation, float aperture_ratio) {
   CameraDesc desc;
+  desc.type = from_name(kCameraTypes, type, "camera type");
   desc.transform = to_matrix(name, transform);
   desc.name = std::move(name);
   desc.left = window[0];
@@ -201,6 +203,11 @@ void set_camera(SceneBuilder& self, std::string name, const std::string& type,
   desc.top = window[3];
   desc.clip_start = clip_start;
   desc.clip_end = clip_end;
+  desc.aperture_radius = aperture_radius;
+  desc.focus_distance = focus_distance;
+  desc.aperture_blades = aperture_blades;
+  desc.aperture_rotation = aperture_rotation;
+  desc.aperture_ratio = aperture_ratio;
   self.set_camera(std::move(desc));
 }
 
@@ -352,10 +359,14 @@ void bind_scene(py::module_& m) {
             self.set_world(std::move(desc));
           },
           py::kw_only(), "name"_a, "graph"_a, "The background; graph None: black.")
-      .def("set_camera", &set_camera, py::kw_only(), "name"_a, "type"_a = "PERSP", "transform"_a,
-           "window"_a, "clip_start"_a = 0.1f, "clip_end"_a = 1000.0f,
-           "A perspective camera that looks along its -z. window: left, right, bottom, top of the "
-           "full frame on the plane at distance 1.")
+      .def(
+          "set_camera", &set_camera, py::kw_only(), "name"_a, "type"_a = "PERSP", "transform"_a,
+          "window"_a, "clip_start"_a = 0.1f, "clip_end"_a = 1000.0f, "aperture_radius"_a = 0.0f,
+          "focus_distance"_a = 10.0f, "aperture_blades"_a = 0, "aperture_rotation"_a = 0.0f,
+          "aperture_ratio"_a = 1.0f,
+          "A camera of type PERSP, ORTHO or EQUIRECTANGULAR that looks along its -z. window: left, "
+          "right, bottom, top of the full frame: on the plane at distance 1, in metres, or as "
+          "longitudes and latitudes in radians. aperture_radius in metres; 0: no depth of field.")
       .def("remove", &SceneBuilder::remove, "key"_a, "Forgets a key; unknown keys are ignored.")
       .def("commit", &commit, "poll"_a = py::none(),
            "Builds the immutable Scene without holding the GIL. poll() is called about every 50 ms "

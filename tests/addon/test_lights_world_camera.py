@@ -167,9 +167,86 @@ def test_default_camera_window(scene, export):
     assert math.isclose(2 * math.atan(right), data.angle_x, rel_tol=1e-5)
 
 
-@pytest.mark.parametrize("kind", ["ORTHO", "PANO"])
-def test_other_cameras_are_refused_by_name(scene, export, kind):
-    scene.camera.data.type = kind
-    with pytest.raises(RuntimeError, match="Camera 'Camera' is (orthographic|panoramic)"):
+def test_camera_without_depth_of_field(scene, export):
+    scene.camera.data.dof.aperture_fstop = 1.0
+    assert export().camera.get("aperture_radius", 0.0) == 0.0
+
+
+def test_orthographic_window(scene, export):
+    data = scene.camera.data
+    data.type, data.ortho_scale = "ORTHO", 3.0
+    data.shift_x, data.shift_y = 0.1, -0.2
+    scene.camera.matrix_world = Matrix.LocRotScale(
+        (1, 2, 8), Matrix.Rotation(0.3, 3, (1, 1, 0)), None
+    )
+    sent = export().camera
+    assert sent["type"] == "ORTHO"
+    left, right, bottom, top = sent["window"]
+    assert (right - left, top - bottom) == pytest.approx((3.0, 2.25))
+    for point in ((0, 0, 0), (1, -1, 0.5), (-2, 1, 1)):
+        x, y = (np.linalg.inv(sent["transform"]) @ np.array([*point, 1.0]))[:2]
+        position = (x - left) / (right - left), (y - bottom) / (top - bottom)
+        assert position == pytest.approx(screen_position(scene, point), abs=1e-5)
+
+
+def panorama_settings(camera):
+    return camera.data if hasattr(camera.data, "panorama_type") else camera.data.cycles
+
+
+def test_equirectangular_camera(scene, export):
+    scene.camera.data.type = "PANO"
+    settings = panorama_settings(scene.camera)
+    settings.panorama_type = "EQUIRECTANGULAR"
+    settings.longitude_min, settings.longitude_max = -2.0, 1.0
+    settings.latitude_min, settings.latitude_max = -0.5, 1.25
+    sent = export().camera
+    assert sent["type"] == "EQUIRECTANGULAR"
+    assert sent["window"] == (-2.0, 1.0, -0.5, 1.25)
+
+
+@pytest.mark.parametrize("kind, focal_length", [("PERSP", 0.08), ("ORTHO", 1.0), ("PANO", 0.08)])
+def test_lens(scene, export, kind, focal_length):
+    data = scene.camera.data
+    data.type, data.lens = kind, 80.0
+    panorama_settings(scene.camera).panorama_type = "EQUIRECTANGULAR"
+    dof = data.dof
+    dof.use_dof, dof.aperture_fstop, dof.focus_distance = True, 4.0, 2.5
+    dof.aperture_blades, dof.aperture_rotation, dof.aperture_ratio = 6, 0.25, 2.0
+    sent = export().camera
+    assert sent["aperture_radius"] == pytest.approx(focal_length / 8.0)
+    assert sent["focus_distance"] == 2.5
+    assert sent["aperture_blades"] == 6
+    assert (sent["aperture_rotation"], sent["aperture_ratio"]) == (0.25, 2.0)
+    dof.aperture_fstop = 0.0  # as wide as can be, but no division by zero
+    assert 0.0 < export().camera["aperture_radius"] < float("inf")
+
+
+def test_focus_object_and_bone(scene, export):
+    """The distance counts along the view axis, not along the line to the object."""
+    dof = scene.camera.data.dof
+    dof.use_dof, dof.focus_distance = True, 100.0
+    square = add_square()
+    square.location = (3, 0, 1)
+    dof.focus_object = square
+    assert export().camera["focus_distance"] == pytest.approx(4.0)
+
+    armature = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+    scene.collection.objects.link(armature)
+    armature.location = (0, 0, 0.5)
+    bpy.context.view_layer.objects.active = armature
+    bpy.ops.object.mode_set(mode="EDIT")
+    bone = armature.data.edit_bones.new("Bone")
+    bone.head, bone.tail = (0, 0, 1.5), (0, 1, 1.5)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    dof.focus_object = armature
+    assert export().camera["focus_distance"] == pytest.approx(4.5)
+    dof.focus_subtarget = "Bone"
+    assert export().camera["focus_distance"] == pytest.approx(3.0)
+
+
+def test_other_cameras_are_refused_by_name(scene, export):
+    scene.camera.data.type = "PANO"
+    panorama_settings(scene.camera).panorama_type = "MIRRORBALL"
+    with pytest.raises(RuntimeError, match="Camera 'Camera' is a mirror ball"):
         export()
     assert len(messages("ERROR")) == 1

@@ -268,7 +268,6 @@ def test_unsupported_things_are_named(scene, export):
     cloud = bpy.data.objects.new("Cloud", bpy.data.pointclouds.new("Cloud"))
     scene.collection.objects.link(cloud)
     scene.render.use_motion_blur = True
-    scene.camera.data.dof.use_dof = True
     material = new_material("Foggy")
     output = material.node_tree.nodes.new("ShaderNodeOutputMaterial")
     for kind, socket in (("VolumeScatter", "Volume"), ("Displacement", "Displacement")):
@@ -284,7 +283,6 @@ def test_unsupported_things_are_named(scene, export):
         "Object 'Volume': volumes",
         "Object 'Cloud': point clouds",
         "Motion blur",
-        "Object 'Camera': depth of field",
         "Material 'Foggy': volumes",
         "Material 'Foggy': displacement",
         "Object 'Soft': a light without shadows",

@@ -3,6 +3,9 @@
 // Cameras measure per pixel: a film position is drawn with density 1 per pixel, so resolution and
 // crop appear in no weight. Raster coordinates are in pixels from the bottom-left corner of the
 // full frame.
+//
+// A lens point is drawn by `u_lens`, in sample_ray() as in connect(). Given u_lens, a film position
+// fixes the ray; the density of u_lens is in every technique and cancels.
 #pragma once
 
 #include <memory>
@@ -13,18 +16,28 @@
 
 namespace janus {
 
-// Density of the first vertex z_{k-1} seen by a pixel, given the point on the lens (whose own
-// density is in every technique and cancels). `from_point`: `value` is per solid angle at that
-// point; otherwise (parallel rays) it is per area perpendicular to the ray.
+// Density of the first vertex z_{k-1} seen by a pixel, given u_lens. `from_point`: `value` is per
+// solid angle at the lens point; otherwise (parallel rays) it is per area perpendicular to the ray.
 struct PixelDensity {
   float value = 0.0f;
   bool from_point = true;
+  // Where the rays of neighbouring film positions meet, as two distances from the lens point. They
+  // meet in the lens point itself, but for a panorama with a lens: its lens point turns with the
+  // ray.
+  vec2 foci = vec2(0.0f);
 };
 
 // Density per area of z_{k-1}, given |cos| there and the squared distance from the lens point. The
 // one place where the camera's end changes measure.
-inline float camera_density(PixelDensity density, float cos_1, float distance2) {
-  return density.value * cos_1 / (density.from_point ? distance2 : 1.0f);
+inline float camera_density(const PixelDensity& density, float cos_1, float distance2) {
+  if (!density.from_point) {
+    return density.value * cos_1;
+  }
+  if (density.foci == vec2(0.0f)) {
+    return density.value * cos_1 / distance2;
+  }
+  const vec2 d = std::sqrt(distance2) - density.foci;
+  return density.value * cos_1 / std::abs(d.x * d.y);
 }
 
 struct CameraRay {
@@ -40,6 +53,9 @@ struct CameraConnection {
   vec3 target;      // end of the shadow ray: where the camera ray would start
   float distance2;  // to the lens point
   PixelDensity density;
+  // A panorama may see the point at several film positions (over its seam and its poles). One was
+  // chosen with this probability; a contribution is divided by it, a weight is not.
+  float pmf = 1.0f;
 
   // W_e G without the scene point's cosine, per pixel.
   float importance() const { return camera_density(density, 1.0f, distance2); }
@@ -48,9 +64,11 @@ struct CameraConnection {
 class Camera {
  public:
   virtual ~Camera() = default;
-  // `u_lens` in [0, 1)^2 picks the point on the lens.
+  // `u_lens` in [0, 1)^2 picks the point on the lens. `raster` may lie outside the frame: the pixel
+  // filter reaches over its border.
   virtual CameraRay sample_ray(vec2 raster, vec2 u_lens) const = 0;
-  // nullopt outside the frame grown by `margin` pixels, or outside the clipping range.
+  // The inverse: sample_ray(raster, u_lens) passes through `p`. nullopt outside the frame grown by
+  // `margin` pixels (infinite: everywhere), or outside the clipping range.
   virtual std::optional<CameraConnection> connect(vec3 p, vec2 u_lens, float margin) const = 0;
 };
 

@@ -1,67 +1,86 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "janus/camera/camera.h"
+#include "janus/camera/types.h"
 
 namespace janus {
 
 namespace {
 
+// A thin lens, or a pinhole. All rays of a film position meet on the plane of focus.
 class PerspectiveCamera final : public Camera {
  public:
   PerspectiveCamera(const CameraDesc& desc, int width, int height)
-      : rotation_(glm::normalize(vec3(desc.transform[0])), glm::normalize(vec3(desc.transform[1])),
-                  glm::normalize(vec3(desc.transform[2]))),
-        center_(desc.transform[3]),
-        origin_(desc.left, desc.bottom),
-        pixel_((desc.right - desc.left) / width, (desc.top - desc.bottom) / height),
-        size_(width, height),
+      : pose_(desc),
+        window_(desc, width, height),
+        aperture_(desc),
+        focus_(std::max(desc.focus_distance, kMinFocus)),
         near_(desc.clip_start),
         far_(desc.clip_end) {}
 
-  CameraRay sample_ray(vec2 raster, vec2 /*u_lens*/) const override {
-    const vec3 local(origin_ + raster * pixel_, -1.0f);
-    const float length = glm::length(local);
-    const vec3 direction = rotation_ * (local / length);
-    // Clipping planes are perpendicular to the view axis, as in Blender.
-    return {Ray{center_ + near_ * length * direction, direction, (far_ - near_) * length},
-            center_,
-            {pdf_solid(1.0f / length), true}};
+  CameraRay sample_ray(vec2 raster, vec2 u_lens) const override {
+    const vec3 chief(window_.from_raster(raster), -1.0f);
+    const float chief_length = glm::length(chief);
+    vec3 lens(0.0f), local = chief / chief_length;
+    if (!aperture_.pinhole()) {
+      lens = vec3(aperture_.sample(u_lens), 0.0f);
+      local = normalize(focus_ * chief - lens);
+    }
+    const vec3 direction = pose_.rotation * local;
+    const vec3 world_lens = pose_.to_world(lens);
+    // Clipping planes are perpendicular to the view axis for the chief ray, the one through the
+    // centre of the lens; other rays are as long, as in Cycles.
+    return {Ray{world_lens + near_ * chief_length * direction, direction,
+                (far_ - near_) * chief_length},
+            world_lens,
+            {pdf_solid(-local.z), true}};
   }
 
-  std::optional<CameraConnection> connect(vec3 p, vec2 /*u_lens*/, float margin) const override {
-    const vec3 to_camera = center_ - p;
-    const vec3 local = -(glm::transpose(rotation_) * to_camera);
+  std::optional<CameraConnection> connect(vec3 p, vec2 u_lens, float margin) const override {
+    const vec3 local = pose_.to_local(p);
     const float depth = -local.z;
-    if (!(depth > near_ && depth < far_)) {
+    if (!(depth > 0.0f)) {
       return std::nullopt;
     }
-    const vec2 raster = (vec2(local) / depth - origin_) / pixel_;
-    if (!(raster.x >= -margin && raster.y >= -margin && raster.x <= size_.x + margin &&
-          raster.y <= size_.y + margin)) {
+    vec2 lens(0.0f), chief = vec2(local) / depth;
+    if (!aperture_.pinhole()) {
+      lens = aperture_.sample(u_lens);
+      chief = lens / focus_ + (vec2(local) - lens) / depth;
+    }
+    const vec2 raster = window_.to_raster(chief);
+    if (!window_.contains(raster, margin)) {
       return std::nullopt;
     }
-    const float d2 = length2(to_camera);
+    const float chief_length = std::sqrt(1.0f + dot(chief, chief));
+    const vec3 world_lens = pose_.to_world(vec3(lens, 0.0f));
+    const vec3 to_lens = world_lens - p;
+    const float d2 = length2(to_lens);
     const float distance = std::sqrt(d2);
-    const vec3 wo = to_camera / distance;
-    const float cos_axis = depth / distance;
-    return CameraConnection{
-        raster, wo, center_ - (near_ / cos_axis) * wo, d2, {pdf_solid(cos_axis), true}};
+    if (!(distance > near_ * chief_length && distance < far_ * chief_length)) {
+      return std::nullopt;
+    }
+    const vec3 wo = to_lens / distance;
+    return CameraConnection{raster,
+                            wo,
+                            world_lens - near_ * chief_length * wo,
+                            d2,
+                            {pdf_solid(depth / distance), true}};
   }
 
  private:
-  // One film position per pixel: the pixel's area at distance 1 seen under cos^3.
+  // One film position per pixel: on the plane of focus (as on any), a pixel has the area of its
+  // window times the squared distance of the plane; seen from the lens point under cos^3.
   float pdf_solid(float cos_axis) const {
-    return 1.0f / (std::abs(pixel_.x * pixel_.y) * cos_axis * cos_axis * cos_axis);
+    return 1.0f / (window_.pixel_area() * cos_axis * cos_axis * cos_axis);
   }
 
-  mat3 rotation_;
-  vec3 center_;
-  vec2 origin_, pixel_, size_;
-  float near_, far_;
+  Pose pose_;
+  Window window_;
+  Aperture aperture_;
+  float focus_, near_, far_;
 };
 
 }  // namespace
 
-std::unique_ptr<Camera> make_camera(const CameraDesc& desc, int width, int height) {
+std::unique_ptr<Camera> make_perspective(const CameraDesc& desc, int width, int height) {
   return std::make_unique<PerspectiveCamera>(desc, width, height);
 }
 

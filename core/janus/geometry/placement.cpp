@@ -93,8 +93,11 @@ SurfaceInteraction Placement::surface_point(uint32_t primitive, vec2 b) const {
   // The plane of a sliver is known badly; still no ray starts farther off it than it is wide.
   const float tilt = std::min(6.0f * kGamma * (extent.x * extent.y * extent.z),
                               sqr(max_component(n)) / max_component(extent));
+  // A plane through the origin along the axes has no error at all, but a ray that starts on a
+  // triangle meets it: the last term keeps off it.
   const float object = dot(n, back_ * largest + back_translation_ + extent) +
-                       determinant_error_ * std::abs(dot(object_normal, v0));
+                       determinant_error_ * std::abs(dot(object_normal, v0)) +
+                       0x1p-13f * max_component(n) * max_component(extent);
   hit.offset = kGamma * (to_world + object / length) + tilt / length;
   return hit;
 }

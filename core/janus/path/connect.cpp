@@ -103,8 +103,8 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
   const float weight =
       mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)), e.pdf_radiance);
   return CameraSplat{
-      {v.beta * e.f * importance, weight, offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo),
-       to_camera->target, v.crossings},
+      {v.beta * e.f * (importance / to_camera->pmf), weight,
+       offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo), to_camera->target, v.crossings},
       to_camera->raster,
       {v.hit.p + std::sqrt(to_camera->distance2) * wo, to_camera->density}};
 }

@@ -296,6 +296,15 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   if (!(camera_->clip_end > camera_->clip_start) || !(camera_->clip_start >= 0.0f)) {
     throw SceneError(camera_->name, "camera", "its clipping range is empty");
   }
+  if (camera_->type == CameraType::Equirectangular &&
+      !(std::max(std::abs(camera_->bottom), std::abs(camera_->top)) <= 1.0001f * 0.5f * kPi)) {
+    throw SceneError(camera_->name, "camera", "its latitudes go beyond the poles");
+  }
+  if (!(camera_->aperture_radius >= 0.0f) || !std::isfinite(camera_->aperture_radius) ||
+      !(camera_->focus_distance >= 0.0f) || !std::isfinite(camera_->focus_distance) ||
+      !(camera_->aperture_ratio > 0.0f) || !std::isfinite(camera_->aperture_rotation)) {
+    throw SceneError(camera_->name, "camera", "its lens is not a lens");
+  }
   auto scene = std::make_shared<Scene>();
   scene->camera = *camera_;
   Commit commit(*scene, cancel);

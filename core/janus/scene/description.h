@@ -71,12 +71,23 @@ struct WorldDesc {
   std::optional<NodeGraph> graph;  // nullopt: black
 };
 
+enum class CameraType { Perspective, Orthographic, Equirectangular };
+
 struct CameraDesc {
   std::string name;
+  CameraType type = CameraType::Perspective;
   mat4 transform = mat4(1.0f);  // camera to world; looks down local -z, +y is up
-  // The full frame on the plane at distance 1.
+  // The full frame. Perspective: on the plane at distance 1. Orthographic: metres. Equirectangular:
+  // longitude and latitude in radians, 0 at the centre of the view, to the right and up.
   float left = -0.5f, right = 0.5f, bottom = -0.5f, top = 0.5f;
-  float clip_start = 0.1f, clip_end = 1000.0f;  // distances along the view axis
+  // Distances along the view axis; equirectangular: along the ray.
+  float clip_start = 0.1f, clip_end = 1000.0f;
+  // Depth of field.
+  float aperture_radius = 0.0f;  // metres; 0: everything is in focus
+  float focus_distance = 10.0f;  // along the view axis; equirectangular: along the ray
+  int aperture_blades = 0;       // corners; below 3: round
+  float aperture_rotation = 0.0f;
+  float aperture_ratio = 1.0f;  // height to width; 2: half as wide
 };
 
 }  // namespace janus

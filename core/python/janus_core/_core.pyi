@@ -186,16 +186,24 @@ class SceneBuilder:
         self,
         *,
         name: str,
-        type: Literal["PERSP"] = "PERSP",
+        type: Literal["PERSP", "ORTHO", "EQUIRECTANGULAR"] = "PERSP",
         transform: npt.ArrayLike,
         window: Sequence[float],
         clip_start: float = 0.1,
         clip_end: float = 1000.0,
+        aperture_radius: float = 0.0,
+        focus_distance: float = 10.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
     ) -> None:
-        """A perspective camera that looks along its -z, with +y up.
+        """A camera that looks along its -z, with +y up.
 
-        transform: float[4, 4], camera to world. window: left, right, bottom, top of the full frame
-        on the plane at distance 1. clip_start, clip_end: distances along the view axis.
+        transform: float[4, 4], camera to world. window: left, right, bottom, top of the full frame;
+        PERSP: on the plane at distance 1; ORTHO: metres; EQUIRECTANGULAR: longitudes and latitudes
+        in radians. clip_start, clip_end, focus_distance: along the view axis, or along the ray of
+        an EQUIRECTANGULAR. aperture_radius: metres; 0: everything is in focus. aperture_blades:
+        corners of the aperture; below 3: round. aperture_ratio: height to width.
         """
     def remove(self, key: str) -> None:
         """Forgets what has this key; unknown keys are ignored."""

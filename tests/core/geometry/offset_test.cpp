@@ -94,6 +94,25 @@ INSTANTIATE_TEST_SUITE_P(Offset, LoneTriangle,
                                             ::testing::Values(1e-3f, 1.0f, 1e3f),
                                             ::testing::Values(0.0f, 1.0f, 1000.0f)));
 
+// No rounding at all is no excuse either: planes through the origin, along the axes.
+TEST(Offset, PlanesWithoutError) {
+  Random random(33);
+  for (const float size : {1e-3f, 1.0f, 1e3f}) {
+    for (const mat4& m : {mat4(1), scaling(vec3(size)), scaling({size, 3 * size, 0.1f})}) {
+      const auto scene = SceneKit().add("plane", plane(size, 2 * size), {}, m).build();
+      for (int i = 0; i < 1000; ++i) {
+        const SurfaceInteraction p =
+            scene->accel->surface_point(0, i % 2, square_to_triangle(random.next_2d()));
+        const vec3 d = random.direction();
+        const vec3 origin = offset_origin(p.p, p.ng, p.offset, d);
+        ASSERT_FALSE(scene->intersect(Ray{origin, d}));
+        ASSERT_FALSE(scene->occluded(origin, origin + d));
+        ASSERT_FALSE(scene->occluded(origin + d, origin));
+      }
+    }
+  }
+}
+
 // A millimetre on a floor of a kilometre.
 TEST(Offset, ContactShadowsOnLargeFloors) {
   for (const float height : {0.0f, 0.3f, 17.0f}) {

@@ -79,6 +79,15 @@ TEST(Builder, RefusesCamerasWithoutAPicture) {
   refused([](CameraDesc& c) { c.transform[3][0] = NAN; });
   refused([](CameraDesc& c) { c.clip_end = c.clip_start; });
   refused([](CameraDesc& c) { c.clip_start = NAN; });
+  refused([](CameraDesc& c) {
+    c.type = CameraType::Equirectangular;
+    c.top = 1.6f;
+  });
+  refused([](CameraDesc& c) { c.aperture_radius = -1.0f; });
+  refused([](CameraDesc& c) { c.aperture_radius = INFINITY; });
+  refused([](CameraDesc& c) { c.focus_distance = NAN; });
+  refused([](CameraDesc& c) { c.aperture_ratio = 0.0f; });
+  refused([](CameraDesc& c) { c.aperture_rotation = NAN; });
 }
 
 TEST(Builder, LeavesOutBrokenTriangles) {
