@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What benchmarks share: a captured scene in this process, Cycles in another, robust numbers."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from statistics import median
+
+import janus_core
+import numpy as np
+from janus_core import capture
+
+ROOT = Path(__file__).resolve().parents[2]
+FOREVER = 1 << 24  # samples, where time is the limit
+
+
+class CapturedScene:
+    """A scene of scenes/, exported once through Blender, rendered by the core alone."""
+
+    def __init__(self, scene: str, size: int, bounces: int, threads: int) -> None:
+        self.arguments = [scene, "--resolution", f"{size}x{size}", "--max-bounces", str(bounces)]
+        self.arguments += ["--threads", str(threads)]
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "scene.npz"
+            command = [sys.executable, str(ROOT / "scenes" / "render.py"), *self.arguments]
+            command += ["--samples", "1", "--capture", str(path)]
+            command += ["--output", str(path.with_suffix(".exr"))]
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL, timeout=600)
+            builder, self.settings = capture.load(path)
+        self.scene = builder.commit()
+        self.pixels = size * size
+
+    def render(self, **changes: object) -> tuple[np.ndarray, dict]:
+        """(picture, statistics) with the settings of the capture but for the changes."""
+        settings = janus_core.RenderSettings(**{**self.settings.to_dict(), **changes})
+        session = janus_core.RenderSession(self.scene, settings)
+        session.start()
+        session.finish()
+        return session.snapshot("Combined"), session.stats()
+
+    def speed(self, seconds: float, **changes: object) -> tuple[float, dict]:
+        """(samples of all pixels per second, statistics) of a render of about that time."""
+        _, stats = self.render(samples=FOREVER, seconds=seconds, **changes)
+        return stats["samples"] * self.pixels / stats["seconds"], stats
+
+
+class Cycles:
+    """Cycles renders the same in a process of its own. Between renders it does nothing."""
+
+    def __init__(self, scene: CapturedScene) -> None:
+        command = [sys.executable, str(Path(__file__).with_name("_cycles.py")), *scene.arguments]
+        self._process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        self._pixels = scene.pixels
+        if self._process.stdout.readline().strip() != "ready":
+            raise RuntimeError("Cycles does not start")
+
+    def speed(self, samples: int) -> float:
+        """Samples of all pixels per second.
+
+        From the difference between two renders, so that what does not grow with the samples
+        (export, BVH, kernels) is in neither side.
+        """
+        short, long = self.seconds(samples), self.seconds(4 * samples)
+        return 3 * samples * self._pixels / max(long - short, 1e-6)
+
+    def seconds(self, samples: int) -> float:
+        print(samples, file=self._process.stdin, flush=True)
+        return float(self._process.stdout.readline())
+
+    def close(self) -> None:
+        self._process.stdin.close()
+        self._process.wait(timeout=60)
+
+
+def spread(values: list[float]) -> float:
+    """Half the range between the quartiles, relative to the median."""
+    low, high = np.percentile(values, [25, 75])
+    return float(0.5 * (high - low) / median(values))
+
+
+def relative_variance(pictures: list[np.ndarray]) -> float:
+    """Of one picture: mean over pixels of the variance between seeds over the squared value."""
+    values = np.array([picture[..., :3].mean(axis=2) for picture in pictures], dtype=float)
+    mean, variance = values.mean(axis=0), values.var(axis=0, ddof=1)
+    return float((variance / (mean**2 + (0.1 * mean.mean()) ** 2)).mean())
