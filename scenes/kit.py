@@ -148,6 +148,40 @@ def emission(name: str, color: Color, strength: float) -> bpy.types.Material:
     return _material(name, "ShaderNodeEmission", "Emission", Color=(*color, 1.0), Strength=strength)
 
 
+def shader(
+    name: str, kind: str, distribution: str | None = None, **inputs: object
+) -> bpy.types.Material:
+    """Any one shader node: `kind` is its type without "ShaderNode", inputs go by their names."""
+    socket = "Emission" if kind == "Emission" else "BSDF"
+    material = _material(name, f"ShaderNode{kind}", socket, **inputs)
+    if distribution is not None:
+        _node_tree(material).nodes[0].distribution = distribution
+    return material
+
+
+def combined(
+    name: str, kind: str, first: bpy.types.Material, second: bpy.types.Material
+) -> bpy.types.Material:
+    """Two materials of one node each under a MixShader (half and half) or an AddShader."""
+    material = bpy.data.materials.new(name)
+    tree = _node_tree(material)
+    tree.nodes.clear()
+    top = tree.nodes.new(f"ShaderNode{kind}")
+    shaders = [socket for socket in top.inputs if socket.type == "SHADER"]
+    for part, socket in zip((first, second), shaders, strict=True):
+        source = next(n for n in _node_tree(part).nodes if n.type != "OUTPUT_MATERIAL")
+        node = tree.nodes.new(source.bl_idname)
+        if hasattr(source, "distribution"):
+            node.distribution = source.distribution
+        for given, own in zip(source.inputs, node.inputs, strict=True):
+            if hasattr(given, "default_value"):
+                own.default_value = given.default_value
+        tree.links.new(node.outputs[0], socket)
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(top.outputs[0], output.inputs["Surface"])
+    return material
+
+
 # ---------------------------------------------------------------------------------------------
 # Meshes
 # ---------------------------------------------------------------------------------------------

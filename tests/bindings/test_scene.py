@@ -160,7 +160,7 @@ def test_numbers_of_numpy(builder):
 
 def test_unsupported_is_named_not_fatal(builder):
     builder.set_material("m", name="Paint", graph=shader("BSDF_HAIR"))
-    builder.set_light("sun", name="Sun", type="SUN", transform=IDENTITY)
+    builder.set_light("sun", name="Sun", type="SUN", transform=IDENTITY, energy=-1.0)
     found = builder.commit().diagnostics
     assert ("Paint", "Shader") in [(d.material, d.node) for d in found]
     assert "Sun" in [d.object for d in found]
