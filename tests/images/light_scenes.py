@@ -15,8 +15,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SIZE, SEEDS = 24, 4
 
-# Name: the arguments of a light object (`lamp`), or of a world of a picture (`sky`). No sheared area
-# light: Cycles samples it as if it were a rectangle.
+# Name: the arguments of a light object (`lamp`), or of a world of a picture (`sky`). There is no
+# sheared area light: Cycles samples it as if it were a rectangle.
 LIGHTS = {
     "point": dict(kind="POINT", radius=0.0),
     "point_soft": dict(kind="POINT", radius=0.4),
@@ -45,7 +45,7 @@ LIGHTS = {
         kind="AREA", shape="ELLIPSE", size=1.0, size_y=0.5, scale=(1.5, -0.7, 1)
     ),
     "area_spread": dict(kind="AREA", shape="DISK", size=0.8, spread=1.2),
-    "area_narrow": dict(kind="AREA", shape="RECTANGLE", size=1.5, size_y=1.2, spread=0.3),
+    "area_narrow": dict(kind="AREA", shape="RECTANGLE", size=1.2, size_y=0.8, spread=0.5),
     "area_not_normalized": dict(kind="AREA", shape="SQUARE", size=0.8, use_normalize=False),
 }
 SKIES = {
