@@ -36,6 +36,16 @@ def fill(builder) -> None:
     )
 
 
+def sky(builder, pixels, **arguments):
+    """A world of a picture."""
+    builder.set_image("sky", name="Sky", pixels=pixels, **arguments)
+    map_node = {"name": "Map", "type": "TEX_ENVIRONMENT", "properties": {"image": "sky"}}
+    shader = {"name": "Shader", "type": "BACKGROUND"}
+    shader["inputs"] = {"Color": {"link": ["Map", "Color"]}, "Strength": 2.0}
+    graph = {"nodes": [map_node, shader], "surface": {"link": ["Shader", "Background"]}}
+    builder.set_world(name="World", graph=graph)
+
+
 SETTINGS = {"width": 32, "height": 16, "samples": 4, "max_bounces": 4}
 
 

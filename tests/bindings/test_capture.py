@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from janus_core import capture, exr
 
-from .conftest import SETTINGS, fill, render
+from .conftest import SETTINGS, fill, render, sky
 
 
 @pytest.fixture
@@ -35,6 +35,19 @@ def test_same_bits(captured):
     builder, settings = capture.load(path)
     assert settings == janus_core.RenderSettings(**SETTINGS)
     assert np.array_equal(render(builder.commit()).snapshot(), expected)
+
+
+def test_images(tmp_path):
+    builder = capture.CapturingBuilder()
+    fill(builder)
+    pixels = np.random.default_rng(1).random((4, 8, 3), dtype=np.float32)
+    sky(builder, pixels)
+    builder.save(tmp_path / "sky.npz", janus_core.RenderSettings(**SETTINGS))
+    expected = render(builder.commit()).snapshot()
+    again, _ = capture.load(tmp_path / "sky.npz")
+    assert np.array_equal(render(again.commit()).snapshot(), expected)
+    sky(builder, 0.5 * pixels)
+    assert not np.array_equal(render(builder.commit()).snapshot(), expected)
 
 
 def test_nothing_in_it_is_pickled(captured):

@@ -15,8 +15,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SIZE, SEEDS = 24, 4
 
-# Name: the arguments of a light object (`lamp`), or of a world of a picture (`sky`). No sheared area
-# light: Cycles samples it as if it were a rectangle.
+# Name: the arguments of a light object (`lamp`), or of a world of a picture (`sky`). There is no
+# sheared area light: Cycles samples it as if it were a rectangle.
 LIGHTS = {
     "point": dict(kind="POINT", radius=0.0),
     "point_soft": dict(kind="POINT", radius=0.4),
@@ -29,30 +29,25 @@ LIGHTS = {
     "spot_hard_square": dict(kind="SPOT", radius=0.0, spot_size=0.6, spot_blend=0, use_square=True),
     "spot_soft": dict(kind="SPOT", radius=0.3, spot_size=0.9, spot_blend=1.0),
     "spot_sphere": dict(kind="SPOT", radius=0.3, soft=False, spot_size=0.9, spot_blend=0.5),
-    "spot_wide": dict(kind="SPOT", radius=0.1, spot_size=math.pi, spot_blend=0.2),
     "spot_scaled": dict(
         kind="SPOT", radius=0.0, spot_size=0.8, spot_blend=0.4, scale=(1.6, 0.5, 0.8)
     ),
     "spot_sheared": dict(kind="SPOT", radius=0.2, spot_size=0.7, spot_blend=0.4, shear=0.5),
     "sun": dict(kind="SUN", angle=0.0, energy=2),
-    "sun_5": dict(kind="SUN", angle=math.radians(5), energy=2),
-    "sun_180": dict(kind="SUN", angle=math.pi, energy=2),
+    "sun_60": dict(kind="SUN", angle=math.radians(60), energy=2),
     "sun_not_normalized": dict(kind="SUN", angle=0.2, energy=60, use_normalize=False),
     "sun_sheared": dict(kind="SUN", angle=0.1, energy=2, scale=(1, 2, 0.5), shear=0.5),
-    "sun_60": dict(kind="SUN", angle=math.radians(60), energy=2),
-    "area": dict(kind="AREA", shape="SQUARE", size=0.8),
     "area_ellipse_scaled": dict(
         kind="AREA", shape="ELLIPSE", size=1.0, size_y=0.5, scale=(1.5, -0.7, 1)
     ),
     "area_spread": dict(kind="AREA", shape="DISK", size=0.8, spread=1.2),
-    "area_narrow": dict(kind="AREA", shape="RECTANGLE", size=1.5, size_y=1.2, spread=0.3),
+    "area_narrow": dict(kind="AREA", shape="RECTANGLE", size=1.2, size_y=0.8, spread=0.7),
     "area_not_normalized": dict(kind="AREA", shape="SQUARE", size=0.8, use_normalize=False),
 }
 SKIES = {
     "sky": dict(),
     "sky_closest": dict(interpolation="Closest"),
     "sky_bytes": dict(space="sRGB"),
-    "sky_bytes_plain": dict(space="Non-Color"),
     "sky_alpha": dict(space="sRGB", alpha=0.5),
     "sky_turned": dict(rotation=(0.4, -0.3, 1.1)),
     "sky_turned_texture": dict(rotation=(0.4, -0.3, 1.1), vector_type="TEXTURE", scale=(-2, 2, 2)),

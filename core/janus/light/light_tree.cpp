@@ -124,10 +124,10 @@ struct LightTree::Build {
       all.extend(cluster_of(emitters[order[i]]));
     }
     const Cone& cone = all.cone;
-    tree.nodes_.push_back({all.bounds.center(), all.bounds.radius(), cone.axis,
-                           static_cast<float>(all.strength),
-                           static_cast<float>(std::cos(cone.theta_o)),
-                           static_cast<float>(std::cos(cone.theta_e)), 0, cone.two_sided});
+    tree.nodes_.push_back(
+        {all.bounds.center(), all.bounds.radius(), cone.axis, static_cast<float>(all.strength),
+         static_cast<float>(std::cos(cone.theta_o)), static_cast<float>(std::sin(cone.theta_o)),
+         static_cast<float>(std::cos(cone.theta_e)), 0, cone.two_sided});
     if (end - begin == 1) {
       tree.nodes_[index].next = kLeaf | order[begin];
       tree.trails_[order[begin]] = {bits, depth};
@@ -209,19 +209,23 @@ float LightTree::importance(const Node& node, const Receiver& receiver) {
   const float d2 = length2(d), r2 = sqr(node.radius);
   float cosines = 1.0f;
   if (d2 > r2) {  // otherwise light may come from anywhere
-    const float distance = std::sqrt(d2);
-    const vec3 direction = d / distance;
-    const float sin_b = node.radius / distance;
+    const float inverse = 1.0f / std::sqrt(d2);
+    const vec3 direction = inverse * d;
+    const float sin_b = node.radius * inverse;
     const float cos_b = sin_from_cos(sin_b);
     cosines = cos_receiver(receiver, direction, cos_b, sin_b);
-    const float c = -dot(node.axis, direction);
-    const float outer =
-        cos_minus(node.two_sided ? std::abs(c) : c, node.cos_o, sin_from_cos(node.cos_o));
-    const float best = cos_minus(outer, cos_b, sin_b);
-    if (best < node.cos_e - kGrazing) {
+    if (cosines == 0.0f) {
       return 0.0f;
     }
-    cosines *= std::max(best, kGrazing);
+    if (node.cos_o > -1.0f) {  // otherwise as bright on all sides
+      const float c = -dot(node.axis, direction);
+      const float outer = cos_minus(node.two_sided ? std::abs(c) : c, node.cos_o, node.sin_o);
+      const float best = cos_minus(outer, cos_b, sin_b);
+      if (best < node.cos_e - kGrazing) {
+        return 0.0f;
+      }
+      cosines *= std::max(best, kGrazing);
+    }
   }
   // The mean of 1 / distance^2 over the bounds grows towards their middle, but not without limit.
   return std::min(node.strength * cosines / (d2 + 0.3f * r2 + 1e-30f), 1e30f);

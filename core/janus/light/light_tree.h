@@ -55,9 +55,9 @@ class LightTree {
     vec3 center;
     float radius;  // of the bounding sphere
     vec3 axis;
-    float strength;      // sum
-    float cos_o, cos_e;  // bounds of theta_o and theta_e
-    uint32_t next;       // leaf: kLeaf | emitter; else the right child (the left one comes next)
+    float strength;             // sum
+    float cos_o, sin_o, cos_e;  // bounds of theta_o and theta_e
+    uint32_t next;  // leaf: kLeaf | emitter; else the right child (the left one comes next)
     bool two_sided;
   };
 

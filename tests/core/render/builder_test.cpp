@@ -129,6 +129,22 @@ TEST(Builder, LeavesOutLampsThatCannotShine) {
   LightDesc line = area_light({0, 0, 1}, {0, 0, 0}, 1, 1);
   line.transform[1] = line.transform[0];  // sheared until nothing is left
   refused(line);
+  refused(point_light({0, 0, 0}, 1, NAN));
+  for (LightDesc spot :
+       {spot_light({0, 0, 1}, {0, 0, 0}, 1, 0, 0.1f),
+        spot_light({0, 0, 1}, {0, 0, 0}, 1, NAN, 0.1f), spot_light({0, 0, 1}, {0, 0, 0}, 1, 1, NAN),
+        spot_light({0, 0, 1}, {0, 0, 0}, 1, 1, 0.1f, INFINITY)}) {
+    refused(spot);
+  }
+  LightDesc flat_spot = spot_light({0, 0, 1}, {0, 0, 0}, 1, 1, 0);
+  flat_spot.transform = flat_spot.transform * scaling({1, 0, 1});
+  refused(flat_spot);
+  LightDesc sun = sun_light({0, 0, 1}, 1, NAN);
+  refused(sun);
+  sun = sun_light({0, 0, 1}, 1, 0.1f);
+  sun.transform = scaling({1, 1, 0});
+  refused(sun);
+  refused(sun_light({0, 0, 1}, -1, 0.1f));
   // No light at all is not worth a word.
   EXPECT_TRUE(SceneKit().light("off", point_light({0, 0, 0}, 0)).build()->diagnostics.empty());
 }
@@ -187,6 +203,50 @@ TEST(Builder, CanBeCancelled) {
   CancelToken cancel;
   cancel.cancel();
   EXPECT_THROW(open_box().builder.commit(cancel), Cancelled);
+}
+
+// A world's picture that is not as asked is rendered, and the node is named.
+TEST(Builder, WorldPictureFindings) {
+  Image black_hole(2, 2, 3);
+  std::fill(black_hole.pixels.begin(), black_hole.pixels.end(), 1.0f);
+  black_hole.pixels[4] = NAN;
+  Image negative(2, 2, 3);
+  std::fill(negative.pixels.begin(), negative.pixels.end(), -1.0f);
+  const auto findings = [](const SceneKit& kit, const std::string& node, const std::string& part) {
+    const auto scene = kit.build();
+    ASSERT_EQ(scene->diagnostics.size(), 1u) << part;
+    EXPECT_EQ(scene->diagnostics[0].material, "World");
+    EXPECT_EQ(scene->diagnostics[0].node, node);
+    EXPECT_NE(scene->diagnostics[0].message.find(part), std::string::npos)
+        << scene->diagnostics[0].message;
+    ASSERT_EQ(scene->lights.size(), 1u);
+    const auto hit = scene->lights[0]->intersect(Ray{vec3(0), vec3(1, 0, 0)});
+    ASSERT_TRUE(hit);
+    EXPECT_TRUE(janus::is_finite(hit->radiance));
+  };
+  findings(SceneKit().world(black_hole), "Map", "not finite");
+  findings(SceneKit().world(Image(1, 1, 3), 1, "Cubic").world(black_hole, 1, "Linear"), "Map",
+           "not finite");
+  SceneKit missing = SceneKit().world(black_hole);
+  missing.builder.remove("image");
+  findings(missing, "Map", "missing");
+  black_hole.pixels[4] = 1.0f;
+  findings(SceneKit().world(black_hole, 1, "Cubic"), "Map", "Cubic");
+  const auto turn = [](std::map<std::string, NodeInput> inputs) {
+    return node("Turn", "MAPPING", std::move(inputs));
+  };
+  findings(SceneKit().world(black_hole, 1, "Linear", turn({{"Location", vec3(1, 0, 0)}})), "Turn",
+           "location");
+  findings(SceneKit().world(black_hole, 1, "Linear", turn({{"Scale", vec3(1, 2, 1)}})), "Turn",
+           "scale");
+  findings(SceneKit().world(black_hole, 1, "Linear", turn({{"Rotation", vec3(NAN)}})), "Turn",
+           "Rotation");
+  Node noise = node("Noise", "TEX_NOISE", {});
+  findings(SceneKit().world(black_hole, 1, "Linear", noise), "Map", "Noise");
+  // Neither black nor negative pictures shine.
+  EXPECT_TRUE(SceneKit().world(negative).build()->lights.empty());
+  EXPECT_TRUE(SceneKit().world(Image(4, 2, 3)).build()->lights.empty());
+  EXPECT_TRUE(SceneKit().world(black_hole, 0).build()->lights.empty());
 }
 
 }  // namespace
