@@ -60,7 +60,8 @@ class EquirectangularCamera final : public Camera {
     if (total == 0) {
       return std::nullopt;
     }
-    int skip = std::min(static_cast<int>(choice(u_lens) * static_cast<float>(total)), total - 1);
+    const Choice choice = choose(u_lens, static_cast<uint32_t>(total));
+    uint32_t skip = choice.index;
     vec2 raster(0.0f);
     dvec3 chief(0.0);
     for (int i = 0; i < count; ++i) {
@@ -75,7 +76,7 @@ class EquirectangularCamera final : public Camera {
     const CameraRay ray = world_ray(chief, cos_latitude, lens);
     return CameraConnection{raster,         -ray.ray.direction,
                             ray.ray.origin, static_cast<float>(distance * distance),
-                            ray.density,    1.0f / static_cast<float>(total)};
+                            ray.density,    choice.pmf};
   }
 
  private:
@@ -94,9 +95,24 @@ class EquirectangularCamera final : public Camera {
     }
   };
 
-  // The leading 16 bits of u.x place the lens point, the others are left for the choice among film
-  // positions: both are the same function of u in sample_ray and connect.
+  // u.x has 24 bits. With a lens, the leading 16 place the lens point, and the others are left for
+  // the choice among film positions: both are the same function of u in sample_ray and connect.
   static constexpr float kLensSteps = 65536.0f;
+
+  struct Choice {
+    uint32_t index;
+    float pmf;
+  };
+
+  Choice choose(vec2 u, uint32_t count) const {
+    const uint32_t levels = aperture_.pinhole() ? 1u << 24 : 256u;
+    const float step = u.x * kLensSteps;
+    const float rest = aperture_.pinhole() ? u.x : step - std::floor(step);
+    const auto level = static_cast<uint64_t>(rest * static_cast<float>(levels));
+    const auto first = [&](uint64_t index) { return (index * levels + count - 1) / count; };
+    const auto index = static_cast<uint32_t>(level * count / levels);
+    return {index, static_cast<float>(first(index + 1) - first(index)) / levels};
+  }
 
   Lens lens(vec2 u) const {
     Lens lens;
@@ -112,10 +128,6 @@ class EquirectangularCamera final : public Camera {
       lens.near = std::max(near_, static_cast<float>(2.0 * lens.r2 / lens.L));
     }
     return lens;
-  }
-
-  float choice(vec2 u) const {
-    return aperture_.pinhole() ? u.x : u.x * kLensSteps - std::floor(u.x * kLensSteps);
   }
 
   CameraRay world_ray(dvec3 chief, float cos_latitude, const Lens& lens) const {

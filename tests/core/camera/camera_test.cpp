@@ -229,7 +229,7 @@ TEST(Camera, APanoramaSeesAroundItsBorders) {
         pmf = c->pmf;
       }
     }
-    EXPECT_FLOAT_EQ(pmf, 1.0f / static_cast<float>(found.size()));
+    EXPECT_NEAR(pmf, 1.0f / static_cast<float>(found.size()), 1e-6f);
     return found;
   };
   using Set = std::set<std::pair<int, int>>;

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Run as a script with bpy: one scene with depth, seen by every kind of camera.
+
+    camera_scene.py FOLDER SEEDS SAMPLES
+
+writes FOLDER/CASE.npz (a capture of Janus) and FOLDER/CASE-SEED.exr (Cycles) for each of CASES.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+# With bounces left out the pictures differ by the camera alone, and have little noise.
+BOUNCES = 1
+
+CASES = {
+    "shift": {"shift_x": 0.3, "shift_y": -0.2},
+    "pixel_aspect": {"pixel_aspect_x": 1.0, "pixel_aspect_y": 1.7, "shift_y": 0.1},
+    "vertical_fit": {"sensor_fit": "VERTICAL", "sensor_height": 20.0, "shift_x": 0.2},
+    "ortho": {"type": "ORTHO", "ortho_scale": 4.0},
+    "ortho_shift": {"type": "ORTHO", "ortho_scale": 3.0, "shift_x": 0.3, "shift_y": -0.2},
+    "clipping": {"clip_start": 3.2, "clip_end": 6.5},
+    "lens": {"aperture_fstop": 0.1, "focus_distance": 3.5},
+    "lens_clipping": {"aperture_fstop": 0.1, "focus_distance": 5.0, "clip_start": 2.9},
+    "lens_blades": {
+        "aperture_fstop": 0.06,
+        "focus_distance": 3.5,
+        "aperture_blades": 5,
+        "aperture_rotation": 0.5,
+        "aperture_ratio": 2.0,
+    },
+    "lens_object": {"aperture_fstop": 0.1, "focus_object": "Far"},
+    "ortho_lens": {
+        "type": "ORTHO",
+        "ortho_scale": 4.0,
+        "aperture_fstop": 1.2,
+        "focus_distance": 3.5,
+        "aperture_blades": 3,
+        "aperture_rotation": 0.2,
+        "aperture_ratio": 0.7,
+    },
+    "pano": {"type": "PANO"},
+    "pano_part": {
+        "type": "PANO",
+        "longitude_min": -1.2,
+        "longitude_max": 0.7,
+        "latitude_min": -0.6,
+        "latitude_max": 0.9,
+        "clip_start": 2.0,
+        "clip_end": 5.0,
+    },
+    "pano_lens": {
+        "type": "PANO",
+        "aperture_fstop": 0.1,
+        "focus_distance": 2.0,
+        "aperture_blades": 4,
+        "aperture_rotation": 0.3,
+        "aperture_ratio": 1.6,
+    },
+}
+
+
+def build(scene) -> None:
+    """A room of 6 x 8 x 3 m with blocks at several depths and a lamp that the camera passes by."""
+    from scenes import kit
+
+    kit.clear(scene)
+    kit.neutral_settings(scene, 48, 32)
+    kit.world(scene)
+    room = kit.box(scene, "Room", (6, 8, 3), kit.diffuse("Wall", (0.7, 0.65, 0.6)))
+    room.location = (0.3, 1.5, -0.2)
+    colors = {"Near": (0.8, 0.2, 0.1), "Middle": (0.1, 0.6, 0.2), "Far": (0.1, 0.2, 0.8)}
+    places = {"Near": (-0.6, 0.2), "Middle": (0.2, 1.4), "Far": (1.1, 3.2)}
+    for i, (name, color) in enumerate(colors.items()):
+        block = kit.box(scene, name, (0.6, 0.5, 0.7 + 0.5 * i), kit.diffuse(name, color))
+        block.location = (*places[name], 0.3)
+        block.rotation_euler = (0.2 * i, 0.1, 0.4 + 0.3 * i)
+    behind = kit.box(scene, "Behind", (0.8, 0.3, 1.2), kit.diffuse("Behind", (0.7, 0.7, 0.1)))
+    behind.location = (-0.8, -2.3, 0.1)
+    kit.area_light(scene, "Lamp", (0.5, 0.8, 2.5), (0.2, 1.0, 0.0), (1.5, 1.0), 60.0)
+    kit.camera(scene, (-0.2, -1.6, 1.3), (0.2, 2.0, 0.8), lens=24.0)
+
+
+def change(scene, settings: dict) -> None:
+    """Sets each setting where this Blender keeps it."""
+    import bpy
+
+    data = scene.camera.data
+    dof = data.dof
+    dof.use_dof = "aperture_fstop" in settings
+    panorama = data if hasattr(data, "panorama_type") else data.cycles
+    panorama.panorama_type = "EQUIRECTANGULAR"
+    for name, value in settings.items():
+        if name == "focus_object":
+            dof.focus_object = bpy.data.objects[value]
+            continue
+        owner = next(o for o in (dof, data, panorama, scene.render) if hasattr(o, name))
+        setattr(owner, name, value)
+
+
+def main(folder: Path, seeds: int, samples: int) -> int:
+    import bpy
+
+    from scenes.driver import addon as addons
+    from scenes.driver import picture, setup
+
+    defaults = {"output": folder / "x.exr", "resolution": None, "threads": None, "frame": None}
+    defaults |= dict.fromkeys(("seconds", "integrator", "filter", "capture"))
+    for name, settings in CASES.items():
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        addon = addons.load()
+        try:
+            scene = bpy.context.scene
+            build(scene)
+            change(scene, settings)
+            arguments = defaults | {"samples": 1, "seed": 0, "max_bounces": BOUNCES}
+            arguments |= {"engine": "janus", "capture": folder / f"{name}.npz"}
+            setup.apply(scene, argparse.Namespace(**arguments))
+            bpy.ops.render.render()
+        finally:
+            addon.unload()
+        for seed in range(seeds):
+            arguments |= {"engine": "cycles", "samples": samples, "seed": seed + 1}
+            setup.apply(scene, argparse.Namespace(**arguments))
+            bpy.ops.render.render()
+            picture.save(scene, folder / f"{name}-{seed}.exr")
+    return 0
+
+
+if __name__ == "__main__":
+    from scenes.driver import run
+
+    code = 1
+    try:
+        code = main(Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]))
+    except BaseException as error:
+        print(f"{type(error).__name__}: {error}", file=sys.stderr)
+    run.leave(code)
