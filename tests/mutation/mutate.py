@@ -21,7 +21,8 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mistakes import MISTAKES, Edit, Mistake
+from mistake import Edit, Mistake
+from mistakes import MISTAKES
 
 ROOT = Path(__file__).resolve().parents[2]
 COPY = ROOT / "build" / "mutation"
