@@ -112,7 +112,17 @@ def test_camera_without_a_window(builder, window):
 
 def test_camera_type(builder):
     arguments = {"name": "Cam", "transform": IDENTITY, "window": (-1, 1, -1, 1)}
-    assert error_of(builder, "set_camera", type="PANO", **arguments).path == "type"
+    with pytest.raises(ValueError, match="PERSP, ORTHO, EQUIRECTANGULAR"):
+        builder.set_camera(type="PANO", **arguments)
+    for kind in ("PERSP", "ORTHO", "EQUIRECTANGULAR"):
+        builder.set_camera(type=kind, aperture_radius=0.1, aperture_blades=5, **arguments)
+        builder.commit()
+
+
+@pytest.mark.parametrize("lens", [{"aperture_radius": -1.0}, {"aperture_ratio": 0.0}])
+def test_camera_with_an_impossible_lens(builder, lens):
+    arguments = {"name": "Cam", "transform": IDENTITY, "window": (-1, 1, -1, 1)}
+    assert error_of(builder, "set_camera", **arguments, **lens).path == "camera"
 
 
 def test_wrong_words(builder):
