@@ -177,6 +177,7 @@ py::dict stats(const RenderSession& self) {
                "connections_evaluated"_a = c.connections_evaluated, "nee"_a = c.nee_samples,
                "splats"_a = c.splats);
   d["light_vertices"] = c.light_vertices;
+  d["light_cache_bytes"] = s.cache_bytes;
   d["dropped"] = c.dropped;
   d["weight_error"] = s.weight_error;
   return d;

@@ -18,6 +18,7 @@ namespace {
 
 constexpr size_t kPilotPaths = 4096;
 constexpr size_t kOracleStride = 97;  // debug mode checks every 97th pixel
+constexpr int kMaxConnections = 65;   // RenderSettings allows 64, and one may be added by chance
 
 // Connectible light vertices with their lobes in one pool.
 struct VertexCache {
@@ -64,6 +65,7 @@ class Bdpt final : public PassIntegrator {
   }
 
   double weight_error() const override { return weight_error_; }
+  size_t cache_bytes() const override { return cache_bytes_; }
 
  private:
   // Measures the vertices that a light path leaves in the cache. The weights need that number
@@ -137,8 +139,15 @@ class Bdpt final : public PassIntegrator {
 
   // Concatenates in light-path order, whichever thread traced what.
   void merge(std::vector<VertexCache>& blocks) {
+    size_t vertices = 0, lobes = 0;
+    for (const VertexCache& block : blocks) {
+      vertices += block.vertices.size();
+      lobes += block.lobes.size();
+    }
     cache_.vertices.clear();
+    cache_.vertices.reserve(vertices);
     cache_.lobes.clear();
+    cache_.lobes.reserve(lobes);
     for (VertexCache& block : blocks) {
       const auto first = static_cast<uint32_t>(cache_.lobes.size());
       for (LightVertex& v : block.vertices) {
@@ -148,6 +157,7 @@ class Bdpt final : public PassIntegrator {
       cache_.lobes.insert(cache_.lobes.end(), block.lobes.begin(), block.lobes.end());
       block = {};
     }
+    cache_bytes_ = std::max(cache_bytes_, cache_.bytes());
   }
 
   // The value of a join whose technique has `s` light vertices and `t` camera vertices.
@@ -223,8 +233,9 @@ class Bdpt final : public PassIntegrator {
         },
         [&](const PathVertex& v, Sampler& walk) {
           if (v.bsdf().connectible()) {
+            const Picks picks = pick(walk);
             gather(next_event(v, roulette, walk, counters));
-            gather(connect(v, roulette, walk, counters));
+            gather(connect(v, picks, roulette, walk, counters));
           }
         });
     context_.film.add_sample(index, sum, settings_.film_transparent ? alpha : 1.0f);
@@ -246,27 +257,45 @@ class Bdpt final : public PassIntegrator {
                     counters.nee_samples, counters.nee_rays);
   }
 
-  Rgb connect(const PathVertex& v, const Roulette& roulette, Sampler& sampler,
+  // Cached vertices to be joined with a camera vertex.
+  struct Picks {
+    int count = 0;
+    std::array<const LightVertex*, kMaxConnections> vertices;
+  };
+
+  // Picks uniformly, and asks for the memory: it arrives while next event estimation is at work.
+  Picks pick(Sampler& sampler) const {
+    Picks picks;
+    const size_t size = cache_.vertices.size();
+    if (counts_.connection == 0.0f || size == 0) {
+      return picks;
+    }
+    picks.count = static_cast<int>(settings_.connections + sampler.next_1d());
+    for (int n = 0; n < picks.count; ++n) {
+      const size_t i =
+          std::min(static_cast<size_t>(sampler.next_1d() * static_cast<double>(size)), size - 1);
+      picks.vertices[n] = &cache_.vertices[i];
+      __builtin_prefetch(picks.vertices[n]);
+      __builtin_prefetch(reinterpret_cast<const char*>(picks.vertices[n]) + 64);
+    }
+    return picks;
+  }
+
+  Rgb connect(const PathVertex& v, const Picks& picks, const Roulette& roulette, Sampler& sampler,
               Counters& counters) const {
     Rgb sum(0.0f);
-    if (counts_.connection == 0.0f || cache_.vertices.empty()) {
-      return sum;
-    }
-    const auto samples = static_cast<int>(settings_.connections + sampler.next_1d());
-    const size_t size = cache_.vertices.size();
     // The actual size belongs to the estimate, the expected one (in counts_) to the weights.
-    const float scale =
-        static_cast<float>(size) / (settings_.connections * static_cast<float>(wave_paths_));
-    for (int n = 0; n < samples; ++n) {
+    const float scale = static_cast<float>(cache_.vertices.size()) /
+                        (settings_.connections * static_cast<float>(wave_paths_));
+    for (int n = 0; n < picks.count; ++n) {
       ++counters.connections;
-      const size_t pick =
-          std::min(static_cast<size_t>(sampler.next_1d() * static_cast<double>(size)), size - 1);
-      const LightVertex& l = cache_.vertices[pick];
+      const LightVertex& l = *picks.vertices[n];
       if (l.edges + v.edges + 1 > settings_.walk.max_edges) {
         continue;
       }
-      const auto c =
-          connect_vertices(l, cache_.bsdf(l), v, mis_, scale, roulette, sampler, counters);
+      const BsdfView light_bsdf = cache_.bsdf(l);
+      __builtin_prefetch(light_bsdf.lobes().data());
+      const auto c = connect_vertices(l, light_bsdf, v, mis_, scale, roulette, sampler, counters);
       if (c) {
         uint64_t with_value = 0;
         sum += arriving(weighted(*c, l.edges + 1, v.edges + 1), *c, roulette, sampler, with_value,
@@ -289,6 +318,7 @@ class Bdpt final : public PassIntegrator {
   Mis mis_;
   size_t waves_ = 1, wave_paths_ = 0;
   VertexCache cache_;
+  size_t cache_bytes_ = 0;  // the largest so far
   RouletteMap roulette_;
   std::mutex check_mutex_;
   double weight_error_ = 0.0;

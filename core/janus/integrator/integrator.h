@@ -58,6 +58,9 @@ class Integrator {
 
   // Largest |weight - definition| seen by check_weights, over `paths` joins.
   virtual double weight_error() const { return 0.0; }
+
+  // Most bytes that the light-vertex cache has held.
+  virtual size_t cache_bytes() const { return 0; }
 };
 
 std::unique_ptr<Integrator> make_path_tracer(const RenderContext& context,

@@ -12,9 +12,10 @@ LightVertex::LightVertex(const PathVertex& v)
       mis(v.mis),
       bound(max_component(v.beta) * v.bsdf().peak()),
       first_lobe(0),
-      lobe_count(0),
       edges(static_cast<uint16_t>(v.edges)),
-      crossings(static_cast<uint16_t>(v.crossings)) {}
+      crossings(static_cast<uint16_t>(v.crossings)),
+      lobe_count(0),
+      transmits(v.bsdf().transmits()) {}
 
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& v,
                                                 const Mis& mis, Sampler& sampler) {
@@ -59,7 +60,7 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   const float cos_camera = dot(wi, c.hit.ng), cos_light = -dot(wi, l.ng);
   // Both ends must scatter to the side where the other end is.
   if ((cos_camera * dot(wo, c.hit.ng) <= 0.0f && !camera_bsdf.transmits()) ||
-      (cos_light * dot(l.wi, l.ng) <= 0.0f && !light_bsdf.transmits())) {
+      (cos_light * dot(l.wi, l.ng) <= 0.0f && !l.transmits)) {
     return std::nullopt;
   }
   ++counters.connections_facing;

@@ -29,7 +29,9 @@ struct LightVertex {
   MisState mis;
   float bound;  // max |beta| times the peak of the BSDF
   uint32_t first_lobe;
-  uint16_t lobe_count, edges, crossings;
+  uint16_t edges, crossings;
+  uint8_t lobe_count;
+  bool transmits;
 
   LightVertex() = default;
   // Of a subpath's vertex; the lobes are the cache's business.

@@ -91,6 +91,7 @@ void RenderSession::run() {
     statistics_.seconds = now() - start_time_;
     statistics_.counters = integrator->counters();
     statistics_.weight_error = integrator->weight_error();
+    statistics_.cache_bytes = integrator->cache_bytes();
     // Stop where the next whole pass would overshoot the limit by more than half of itself.
     const double per_pass = statistics_.seconds / (pass + 1);
     if (settings_.seconds > 0.0 && statistics_.seconds + 0.5 * per_pass > settings_.seconds) {

@@ -25,6 +25,7 @@ struct Statistics {
   double seconds = 0.0;  // of rendering, the scene's set-up apart
   Counters counters;
   double weight_error = 0.0;  // with check_weights
+  size_t cache_bytes = 0;     // most that the light-vertex cache has held
 };
 
 // One render on threads of its own. All methods may be called from any thread; none of them waits

@@ -56,6 +56,7 @@ class _Stats(TypedDict):
         Literal["connections", "connections_facing", "connections_evaluated", "nee", "splats"], int
     ]
     light_vertices: int
+    light_cache_bytes: int
     dropped: int
     weight_error: float
 
@@ -323,7 +324,7 @@ class RenderSession:
     def stats(self) -> _Stats:
         """Whole passes (samples), seconds of rendering, paths and rays by kind, joins (how far they
         came before they were given up), light_vertices
-        (kept in the cache), dropped (values that were not finite), weight_error (with
+        (kept in the cache) and light_cache_bytes (its largest size), dropped (values that were not finite), weight_error (with
         check_weights: the largest difference from the definition)."""
 
 def build_info() -> dict[str, Any]:

@@ -144,6 +144,18 @@ TEST_F(Techniques, ManyWaves) {  // a cache too small for a pass
   bdpt_.cache_bytes = 1 << 16;
   expect_same(bdpt_);
 }
+TEST_F(Techniques, CacheKeepsToItsLimit) {
+  bdpt_.width = bdpt_.height = 256;
+  bdpt_.samples = 1;
+  for (const size_t limit : {size_t{1} << 20, size_t{4} << 20}) {
+    bdpt_.cache_bytes = limit;
+    RenderSession session(scene_, bdpt_);
+    session.start();
+    session.finish();
+    EXPECT_LE(session.statistics().cache_bytes, limit);
+    EXPECT_GT(session.statistics().cache_bytes, limit / 2);
+  }
+}
 TEST_F(Techniques, PathLengths) {
   for (const int bounces : {0, 1, 2}) {
     bdpt_.max_bounces = bounces;
