@@ -92,7 +92,7 @@ BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
     if (is_delta(lobe)) {
       continue;
     }
-    const LobeEval e = evaluate_lobe(lobe, d);
+    const LobeEval e = evaluate_lobe(lobe, ng_, d);
     sum.f += e.f;
     sum.pdf_radiance += pmf(lobe, grazing_o) * e.pdf_radiance;
     sum.pdf_importance += pmf(lobe, grazing_i) * e.pdf_importance;
@@ -150,16 +150,12 @@ std::optional<BsdfSample> BsdfView::sample_direction(const Lobe& lobe, vec3 from
 std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen, vec3 from, float u,
                                                  TransportMode mode) const {
   const float from_ng = dot(from, ng_);
-  const auto event = sample_delta(lobe, from, from_ng, u);
+  const auto event = sample_delta(lobe, ng_, from, u, mode);
   if (!event) {
     return std::nullopt;
   }
   const vec3 to = event->direction;
   const float to_ng = dot(to, ng_);
-  // A shading normal can send a reflection below the surface, or a refraction above it.
-  if ((to_ng * from_ng < 0.0f) != event->transmitted || to_ng == 0.0f) {
-    return std::nullopt;
-  }
   const bool radiance = mode == TransportMode::Radiance;
   // (index on the light side / index on the camera side)^2
   const float eta2 = radiance ? sqr(event->eta) : 1.0f / sqr(event->eta);
@@ -174,7 +170,7 @@ std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen,
   // The two walks measure their discrete event against different solid angles: beside the choice of
   // the lobe, the ratio of the densities is the jacobian.
   const float own = chosen * event->probability;
-  const float other = pmf(lobe, grazing(to_ng)) * event->probability;
+  const float other = event->one_way ? 0.0f : pmf(lobe, grazing(to_ng)) * event->probability;
   const float pdf_radiance = (radiance ? own : other) * jacobian;
   const float pdf_importance = radiance ? other : own;
   return BsdfSample{to,

@@ -24,8 +24,13 @@ struct LobeEval {
   float pdf_radiance = 0.0f, pdf_importance = 0.0f;
 };
 
+// The normal that Cycles gives to GGX and Translucent lobes: where a mirror at shading normal `n`
+// would send the view `wo` below the surface, `n` is turned towards `ng` until the reflection just
+// leaves it. Both normals on the side of wo.
+vec3 valid_normal(vec3 n, vec3 ng, vec3 wo);
+
 // For lobes that are not deltas.
-LobeEval evaluate_lobe(const Lobe& lobe, const Directions& d);
+LobeEval evaluate_lobe(const Lobe& lobe, vec3 ng, const Directions& d);
 
 // Draws the direction opposite to `from` of a lobe that is no delta, with the densities above;
 // nullopt: absorbed.
@@ -39,9 +44,11 @@ struct DeltaEvent {
   float probability;  // of this event of the lobe, the same from both sides
   float eta = 1.0f;   // refraction: index of the far side / index of the side of `from`
   bool transmitted = false;
-  vec3 normal;  // on the side of `from`
+  bool one_way = false;  // the other walk never makes this event
+  vec3 normal;           // on the side of `from`
 };
-std::optional<DeltaEvent> sample_delta(const Lobe& lobe, vec3 from, float from_ng, float u);
+std::optional<DeltaEvent> sample_delta(const Lobe& lobe, vec3 ng, vec3 from, float u,
+                                       TransportMode mode);
 
 // Albedo estimate for a direction at cosine `cos`: what lobes are chosen by.
 float estimated_albedo(const Lobe& lobe, float cos);

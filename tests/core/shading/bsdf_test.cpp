@@ -49,6 +49,8 @@ const BsdfCase kCases[] = {
       placed(glass_lobe(Rgb(0.5f), kWhite, true, 1.5f, 0.25f), kTilted),
       refraction_lobe(Rgb(0.1f), 1.3f, 0)},
      true},
+    {"both_sides_tilted",
+     {placed(diffuse_lobe(Rgb(0.5f)), kTilted), placed(translucent_lobe(Rgb(0.5f)), kTilted)}},
     {"layered", {kLayer, below(diffuse_lobe(Rgb(0.8f)), kLayer)}, false, false},
     {"principled",
      {metal_lobe(Rgb(0.2f), Rgb(0.9f, 0.5f, 0.1f), 0.2f, true),

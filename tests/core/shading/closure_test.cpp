@@ -6,6 +6,7 @@
 #include "janus/shading/albedo.h"
 #include "janus/shading/diffuse.h"
 #include "janus/shading/fresnel.h"
+#include "janus/shading/scatter.h"
 #include "shading/lobes.h"
 
 namespace janus::test {
@@ -213,6 +214,66 @@ TEST(SmoothLimit, NarrowLobesAreNormalized) {
     }
     EXPECT_NEAR(sum, 1, 0.005) << alpha;
   }
+}
+
+// Views that a mirror at the shading normal would send below the surface see a turned normal: the
+// reflection just leaves the surface, in the plane of both normals, and nothing else changes.
+TEST(ValidNormal, KeepsReflectionsAboveTheSurface) {
+  Random random(6);
+  int turned = 0;
+  for (int i = 0; i < 20000; ++i) {
+    vec3 wo = random.direction(), n = random.direction();
+    wo.z = std::abs(wo.z);
+    n.z = std::abs(n.z) + 0.2f;
+    n = normalize(n);
+    const vec3 used = valid_normal(n, kNg, wo);
+    EXPECT_NEAR(length2(used), 1, 1e-4);
+    const float reflected = reflect_about(wo, used).z, least = std::min(0.9f * wo.z, 0.01f);
+    EXPECT_GT(reflected, std::max(0.0f, least - 3e-4f));
+    if (used == n) {
+      EXPECT_GE(reflect_about(wo, n).z, least - 1e-5f);
+      continue;
+    }
+    ++turned;
+    EXPECT_LT(reflect_about(wo, n).z, least);
+    EXPECT_NEAR(reflected, least, 1e-3);
+    EXPECT_NEAR(dot(cross(n, kNg), used), 0, 1e-4);
+    EXPECT_GT(used.z, n.z - 1e-4f);
+    EXPECT_GT(dot(used, wo), 0);
+  }
+  EXPECT_GT(turned, 1000);
+}
+
+// A delta at a turned normal is an event of camera walks alone; all others go both ways.
+TEST(ValidNormal, DeltaEventsOfBothWalks) {
+  Random random(7);
+  int one_way = 0, both = 0, returned = 0;
+  for (const Lobe& plain : {glossy_lobe(kWhite, 0), glass_lobe(kWhite, kWhite, true, 1.5f, 0)}) {
+    const Bsdf storage = make({placed(plain, kTilted)});
+    const BsdfView bsdf = storage.view(kNg);
+    for (int i = 0; i < 5000; ++i) {
+      const vec3 wo = random.direction();
+      const vec2 u = random.next_2d();
+      const auto there = bsdf.sample(wo, 0.5f, u, TransportMode::Radiance);
+      if (!there) {
+        continue;
+      }
+      const bool reflected = there->direction.z * wo.z > 0;
+      const auto back = bsdf.sample(there->direction, 0.5f, vec2(reflected ? 0.0f : 0.9999f, 0),
+                                    TransportMode::Importance);
+      const bool returns = back && glm::length(back->direction - wo) < 1e-3f;
+      if (there->pdf_reverse == 0) {
+        ++one_way;
+        returned += returns;                              // where the normal was hardly turned
+      } else if (std::abs(there->direction.z) > 0.02f) {  // not at the threshold
+        ++both;
+        EXPECT_TRUE(returns) << wo.z;
+      }
+    }
+  }
+  EXPECT_GT(one_way, 100);
+  EXPECT_LT(returned, 0.01 * one_way);
+  EXPECT_GT(both, 1000);
 }
 
 TEST(Lobes, SidesAndFlags) {
