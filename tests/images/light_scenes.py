@@ -58,7 +58,9 @@ CASES = [*LIGHTS, *SKIES]
 
 def samples(name: str) -> int:
     """Per pixel: small spots of light need more."""
-    return 768 if name.startswith("spot") or name == "area_narrow" else 192
+    if name == "area_narrow":
+        return 2048
+    return 768 if name.startswith("spot") else 192
 
 
 def lamp(scene, kind, radius=0.0, soft=True, scale=(1, 1, 1), shear=0.0, **values):

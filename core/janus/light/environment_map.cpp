@@ -41,7 +41,6 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const Image> image, bool srgb,
     below = above;
   }
   row_ = DiscreteDistribution(rows);
-  cells_empty_ = row_.empty();
 }
 
 double EnvironmentMap::edge(int row) const {

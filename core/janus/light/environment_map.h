@@ -17,7 +17,7 @@ class EnvironmentMap {
   EnvironmentMap(std::shared_ptr<const Image> image, bool srgb, Interpolation interpolation,
                  Rgb scale, const mat3& to_image);
 
-  bool black() const { return cells_empty_; }
+  bool black() const { return row_.empty(); }
   Rgb radiance(vec3 direction) const;
 
   // A direction, drawn with pdf_solid(). That is constant in each cell of a grid, with the cell's
@@ -39,7 +39,6 @@ class EnvironmentMap {
   Rgb scale_;
   mat3 to_image_;
   int rows_, columns_;
-  bool cells_empty_ = false;
   float total_ = 0.0f;
   DiscreteDistribution row_;                  // from the bottom
   std::vector<DiscreteDistribution> column_;  // by row

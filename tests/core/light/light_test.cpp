@@ -61,7 +61,7 @@ TEST_P(Lights, EmitsItsPower) {
 
 TEST_P(Lights, IrradianceAgrees) {
   Mean nee, hit, emitted;
-  for (int i = 0; i < samples(400000); ++i) {
+  for (int i = 0; i < samples(250000); ++i) {
     const vec3 p = receiver_point(random_);
     if (const auto s = illuminate(p)) {
       nee.add(std::max(0.0f, s->wi.z) * s->radiance.x / s->pdf_solid);
@@ -157,7 +157,7 @@ TEST_P(Lights, IlluminationFitsItsDensity) {
         const auto h = hit_light(*scene_, Ray{p, d});
         return h ? pdf_illumination(p, *h) : 0.0f;
       },
-      40);
+      28);
   for (double& e : expected) {
     e *= n;
   }
@@ -186,7 +186,7 @@ TEST_P(Lights, EmissionFitsItsDensity) {
       ++counts[cells.cell(e->direction)];
     }
   }
-  auto expected = cells.integrate([&](vec3 d) { return density(d) * GetParam().projected(d); }, 64);
+  auto expected = cells.integrate([&](vec3 d) { return density(d) * GetParam().projected(d); }, 44);
   for (double& e : expected) {
     e *= n;
   }

@@ -57,7 +57,9 @@ inline NodeGraph combine(const std::string& type, const NodeGraph& a, const Node
 
 inline void add_quad(MeshDesc& mesh, vec3 a, vec3 b, vec3 c, vec3 d) {
   const auto first = static_cast<uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), {a, b, c, d});
+  for (const vec3 p : {a, b, c, d}) {
+    mesh.positions.push_back(p);
+  }
   mesh.triangles.push_back(first + glm::uvec3(0, 1, 2));
   mesh.triangles.push_back(first + glm::uvec3(0, 2, 3));
 }
