@@ -44,8 +44,8 @@ struct FullPath {
   }
   double pr(int i) const {  // density of z_i from the camera side
     if (i == k() - 1) {
-      const double distance2 = camera.density.from_point ? length2(camera.lens - z(i).p) : 1.0;
-      return camera.density.value * std::abs(dot(z(i).ng, wo(i))) / distance2;
+      return camera_density(camera.density, std::abs(dot(z(i).ng, wo(i))),
+                            length2(camera.lens - z(i).p));
     }
     const double solid = pdf(i + 1, TransportMode::Radiance);
     return i == 0 ? solid : solid * geometry(z(i).p, z(i).ng, z(i + 1).p);

@@ -59,7 +59,7 @@ const CameraCase kCases[] = {
        panorama(c, -kPi, kPi, -0.5f * kPi, 0.5f * kPi);
        lens(c, 0.05f, 0.8f);
      },
-     48},
+     120},
     {"panorama", [](CameraDesc& c) { panorama(c, -1.2f, 0.9f, -0.7f, 1.0f); }, 24},
 };
 
