@@ -42,6 +42,11 @@ class Accel {
   // hit. Used by light sampling, so that both ends of a shadow ray follow one rule.
   SurfaceInteraction surface_point(uint32_t instance, uint32_t primitive, vec2 b) const;
 
+  // Its position alone.
+  vec3 position(uint32_t instance, uint32_t primitive, vec2 b) const {
+    return placements_[instance].position(primitive, b);
+  }
+
   // World bounds of everything.
   const Bounds& bounds() const { return bounds_; }
 

@@ -65,8 +65,7 @@ SurfaceInteraction Placement::surface_point(uint32_t primitive, vec2 b) const {
   SurfaceInteraction hit;
   hit.primitive = primitive;
   hit.material = instance_->material(triangle.material);
-  // From the barycentric coordinates, not along the ray: the error does not grow with distance.
-  hit.p = linear_ * (b0 * v0 + b.x * v1 + b.y * v2) + translation_;
+  hit.p = position(primitive, b);
   const vec3 object_normal = cross(v1 - v0, v2 - v0);
   const vec3 world_normal = normal_ * object_normal;
   const float length = glm::length(world_normal);

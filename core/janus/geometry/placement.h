@@ -13,7 +13,16 @@ class Placement {
   // Mesh and instance must outlive this.
   Placement(const Mesh& mesh, const Instance& instance);
 
-  // The surface at barycentric coordinates (b1, b2) of a triangle; `instance` stays unset.
+  // The point at barycentric coordinates (b1, b2) of a triangle. From these and not along a ray:
+  // the error does not grow with distance.
+  vec3 position(uint32_t primitive, vec2 b) const {
+    const Mesh::Triangle& triangle = triangles_[primitive];
+    return linear_ * ((1.0f - b.x - b.y) * positions_[triangle.v[0]] +
+                      b.x * positions_[triangle.v[1]] + b.y * positions_[triangle.v[2]]) +
+           translation_;
+  }
+
+  // The surface there; `instance` stays unset.
   SurfaceInteraction surface_point(uint32_t primitive, vec2 b) const;
 
  private:

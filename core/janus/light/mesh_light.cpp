@@ -8,43 +8,42 @@ namespace janus {
 
 MeshLight::MeshLight(const Accel& accel, const Mesh& mesh, const Instance& instance, uint32_t index,
                      std::vector<Rgb> radiance)
-    : accel_(accel), instance_(index), radiance_(std::move(radiance)) {
+    : accel_(accel), instance_(index), slot_(radiance.size(), kDark) {
   name = instance.name;
   const mat3 linear(instance.to_world);
-  std::vector<float> areas, weights;
-  for (size_t i = 0; i < mesh.triangles().size(); ++i) {
+  std::vector<float> weights;
+  for (uint32_t i = 0; i < radiance.size(); ++i) {
     const Mesh::Triangle& t = mesh.triangles()[i];
     const vec3 v0 = linear * mesh.positions()[t.v[0]];
     const vec3 v1 = linear * mesh.positions()[t.v[1]];
     const vec3 v2 = linear * mesh.positions()[t.v[2]];
-    areas.push_back(0.5f * glm::length(cross(v1 - v0, v2 - v0)));
-    weights.push_back(areas.back() * luminance(radiance_[i]));
-    power_ += 2.0f * kPi * weights.back();
+    const float area = 0.5f * glm::length(cross(v1 - v0, v2 - v0));
+    const float weight = area * luminance(radiance[i]);
+    if (!(weight > 0.0f)) {
+      continue;
+    }
+    const SurfaceInteraction surface = accel.surface_point(index, i, vec2(1.0f / 3.0f));
+    slot_[i] = static_cast<uint32_t>(triangles_.size());
+    triangles_.push_back({radiance[i], surface.ng, surface.offset, 1.0f / area, {}, i});
+    weights.push_back(weight);
+    power_ += 2.0f * kPi * weight;
   }
-  triangles_ = DiscreteDistribution(weights);
-  pdf_area_.resize(areas.size(), 0.0f);
-  for (size_t i = 0; i < areas.size() && !triangles_.empty(); ++i) {
-    pdf_area_[i] = weights[i] > 0.0f ? 1.0f / areas[i] : 0.0f;
+  by_power_ = DiscreteDistribution(weights);
+  for (size_t i = 0; i < triangles_.size(); ++i) {
+    // Either side, by the cosine.
+    triangles_[i].density = {0.5f * kInvPi * by_power_.pmf(i) * triangles_[i].pdf_area, false};
   }
-}
-
-MeshLight::Point MeshLight::point(uint32_t triangle, vec2 u) const {
-  return {accel_.surface_point(instance_, triangle, square_to_triangle(u)), pdf_area_[triangle]};
 }
 
 std::vector<Emitter> MeshLight::emitters() const {
-  std::vector<Emitter> result(pdf_area_.size());
-  for (size_t i = 0; i < result.size(); ++i) {
-    if (!(pdf_area_[i] > 0.0f)) {
-      continue;
-    }
-    Emitter& e = result[i];
-    e.strength = luminance(radiance_[i]) / pdf_area_[i];
+  std::vector<Emitter> result(slot_.size());
+  for (const Triangle& triangle : triangles_) {
+    Emitter& e = result[triangle.primitive];
+    e.strength = luminance(triangle.radiance) / triangle.pdf_area;
     for (const vec2 b : {vec2(0, 0), vec2(1, 0), vec2(0, 1)}) {
-      const auto surface = accel_.surface_point(instance_, static_cast<uint32_t>(i), b);
-      e.bounds.extend(surface.p);
-      e.axis = surface.ng;
+      e.bounds.extend(accel_.position(instance_, triangle.primitive, b));
     }
+    e.axis = triangle.ng;
     e.theta_o = 0.0f;
     e.two_sided = true;
   }
@@ -58,42 +57,36 @@ std::optional<EmissionSample> MeshLight::sample_emission(vec2 u_position, vec2 u
   const bool front = u_direction.x < 0.5f;
   u_direction.x =
       std::min(front ? 2.0f * u_direction.x : 2.0f * u_direction.x - 1.0f, 0x1.fffffep-1f);
-  const auto triangle = static_cast<uint32_t>(triangles_.sample(u_position.x, &u_position.x));
-  const Point point = this->point(triangle, u_position);
-  const vec3 n = front ? point.surface.ng : -point.surface.ng;
+  const Triangle& triangle = triangles_[by_power_.sample(u_position.x, &u_position.x)];
+  const vec3 p = accel_.position(instance_, triangle.primitive, square_to_triangle(u_position));
+  const vec3 n = front ? triangle.ng : -triangle.ng;
   const vec3 direction = Frame(n).to_world(square_to_cosine_hemisphere(u_direction));
-  const RayDensity density = ray_density(triangle);
-  return EmissionSample{
-      offset_origin(point.surface.p, point.surface.ng, point.surface.offset, direction),
-      direction,
-      radiance_[triangle] / density.value,
-      density,
-      n,
-      point.pdf_area,
-      triangle};
+  return EmissionSample{offset_origin(p, triangle.ng, triangle.offset, direction),
+                        direction,
+                        triangle.radiance / triangle.density.value,
+                        triangle.density,
+                        n,
+                        triangle.pdf_area,
+                        triangle.primitive};
 }
 
 std::optional<IlluminationSample> MeshLight::sample_illumination(vec3 receiver, uint32_t primitive,
                                                                  vec2 u) const {
-  const Point point = this->point(primitive, u);
-  const vec3 target = offset_origin(point.surface.p, point.surface.ng, point.surface.offset,
-                                    receiver - point.surface.p);
+  const Triangle& triangle = this->triangle(primitive);
+  const vec3 p = accel_.position(instance_, primitive, square_to_triangle(u));
+  const vec3 target = offset_origin(p, triangle.ng, triangle.offset, receiver - p);
   const vec3 d = target - receiver;
   const float d2 = length2(d);
   if (d2 == 0.0f) {
     return std::nullopt;
   }
   const vec3 wi = d / std::sqrt(d2);
-  const float cos_light = std::abs(dot(wi, point.surface.ng));
+  const float cos_light = std::abs(dot(wi, triangle.ng));
   if (cos_light == 0.0f) {
     return std::nullopt;
   }
-  return IlluminationSample{wi,
-                            target,
-                            d2,
-                            radiance_[primitive],
-                            point.pdf_area * d2 / cos_light,
-                            ray_density(primitive)};
+  return IlluminationSample{
+      wi, target, d2, triangle.radiance, triangle.pdf_area * d2 / cos_light, triangle.density};
 }
 
 float MeshLight::pdf_illumination(const EmissionSample& sample, vec3 endpoint,
@@ -106,11 +99,15 @@ float MeshLight::pdf_illumination(const EmissionSample& sample, vec3 endpoint,
 
 LightHit MeshLight::at(const SurfaceInteraction& hit, vec3 origin, vec3 direction,
                        Rgb radiance) const {
-  const float pdf_area = pdf_area_[hit.primitive];
   const float d2 = length2(hit.p - origin);
   const float cos_light = std::abs(dot(direction, hit.ng));
-  const float pdf = cos_light > 0.0f ? pdf_area * d2 / cos_light : 0.0f;
-  return {std::sqrt(d2), radiance, pdf, ray_density(hit.primitive), d2, hit.primitive};
+  LightHit found{std::sqrt(d2), radiance, 0.0f, {}, d2, hit.primitive};
+  if (slot_[hit.primitive] != kDark && cos_light > 0.0f) {
+    const Triangle& triangle = this->triangle(hit.primitive);
+    found.pdf_illumination = triangle.pdf_area * d2 / cos_light;
+    found.emission = triangle.density;
+  }
+  return found;
 }
 
 }  // namespace janus

@@ -27,21 +27,24 @@ class MeshLight final : public Light {
   LightHit at(const SurfaceInteraction& hit, vec3 origin, vec3 direction, Rgb radiance) const;
 
  private:
-  struct Point {
-    SurfaceInteraction surface;
-    float pdf_area;  // within the triangle
+  // A triangle that shines.
+  struct Triangle {
+    Rgb radiance;
+    vec3 ng;
+    float offset;    // as in SurfaceInteraction
+    float pdf_area;  // 1 / area
+    RayDensity density;
+    uint32_t primitive;
   };
-  Point point(uint32_t triangle, vec2 u) const;
-  RayDensity ray_density(uint32_t triangle) const {
-    const float pmf = pdf_area_[triangle] > 0.0f ? triangles_.pmf(triangle) : 0.0f;
-    return {0.5f * kInvPi * pmf * pdf_area_[triangle], false};
-  }
+  static constexpr uint32_t kDark = 0xffffffffU;
+
+  const Triangle& triangle(uint32_t primitive) const { return triangles_[slot_[primitive]]; }
 
   const Accel& accel_;
   uint32_t instance_;
-  std::vector<Rgb> radiance_;    // per triangle
-  std::vector<float> pdf_area_;  // per triangle: 1 / area, 0 where nothing shines
-  DiscreteDistribution triangles_;
+  std::vector<Triangle> triangles_;
+  std::vector<uint32_t> slot_;  // by primitive: its place in triangles_, or kDark
+  DiscreteDistribution by_power_;
   float power_ = 0.0f;
 };
 
