@@ -20,11 +20,15 @@ constexpr size_t kPilotPaths = 4096;
 constexpr size_t kOracleStride = 97;  // debug mode checks every 97th pixel
 constexpr int kMaxConnections = 65;   // RenderSettings allows 64, and one may be added by chance
 
-// Connectible light vertices with their lobes in one pool.
-struct VertexCache {
+// Connectible light vertices of a block of light paths, with their lobes in one pool.
+struct CacheBlock {
   std::vector<LightVertex> vertices;
   std::vector<Lobe> lobes;
 
+  void clear() {
+    vertices.clear();
+    lobes.clear();
+  }
   void add(const PathVertex& v) {
     LightVertex out(v);
     out.first_lobe = static_cast<uint32_t>(lobes.size());
@@ -43,6 +47,58 @@ struct VertexCache {
   size_t bytes() const {
     return vertices.size() * sizeof(LightVertex) + lobes.size() * sizeof(Lobe);
   }
+};
+
+// The cache: blocks in the order of the light paths, whichever thread traced what. They keep their
+// memory from pass to pass.
+class VertexCache {
+ public:
+  std::span<CacheBlock> start(size_t blocks) {
+    if (blocks_.size() < blocks) {
+      blocks_.resize(blocks);
+    }
+    count_ = blocks;
+    return {blocks_.data(), blocks};
+  }
+
+  // Counts what the blocks hold.
+  void finish() {
+    first_.assign(1, 0);
+    for (size_t i = 0; i < count_; ++i) {
+      first_.push_back(first_.back() + blocks_[i].vertices.size());
+    }
+  }
+
+  size_t size() const { return first_.back(); }
+  size_t bytes() const {
+    size_t sum = 0;
+    for (size_t i = 0; i < count_; ++i) {
+      sum += blocks_[i].bytes();
+    }
+    return sum;
+  }
+
+  struct Entry {
+    const CacheBlock* block;
+    const LightVertex* vertex;
+  };
+  // Entry `i` in the order of the light paths. Blocks are about equally full, so the guess is
+  // close.
+  Entry at(size_t i) const {
+    size_t block = std::min(i * count_ / size(), count_ - 1);
+    while (first_[block] > i) {
+      --block;
+    }
+    while (first_[block + 1] <= i) {
+      ++block;
+    }
+    return {&blocks_[block], &blocks_[block].vertices[i - first_[block]]};
+  }
+
+ private:
+  std::vector<CacheBlock> blocks_;
+  size_t count_ = 0;              // blocks in use
+  std::vector<size_t> first_{0};  // number of the block's first entry; the total at the end
 };
 
 class Bdpt final : public PassIntegrator {
@@ -74,7 +130,7 @@ class Bdpt final : public PassIntegrator {
     counts_.splat = static_cast<float>(light_paths_);
     if (light_paths_ > 0 && settings_.connections > 0.0f) {
       constexpr size_t kBlocks = 16;
-      std::array<VertexCache, kBlocks> caches;
+      std::array<CacheBlock, kBlocks> caches;
       context_.pool.parallel_for(kBlocks, [&](size_t block) {
         context_.cancel.throw_if_cancelled();
         Counters ignored;
@@ -85,7 +141,7 @@ class Bdpt final : public PassIntegrator {
         }
       });
       size_t vertices = 0, bytes = 0;
-      for (const VertexCache& c : caches) {
+      for (const CacheBlock& c : caches) {
         vertices += c.vertices.size();
         bytes += c.bytes();
       }
@@ -101,7 +157,7 @@ class Bdpt final : public PassIntegrator {
   }
 
   // A vertex that no camera vertex may join within the length limit is not worth its place.
-  void cache(const PathVertex& v, VertexCache& cache) const {
+  void cache(const PathVertex& v, CacheBlock& cache) const {
     if (v.bsdf().connectible() && v.edges + 2 <= settings_.walk.max_edges) {
       cache.add(v);
     }
@@ -113,10 +169,13 @@ class Bdpt final : public PassIntegrator {
     const size_t blocks = (wave_paths_ + kLightBlock - 1) / kLightBlock;
     const float margin = context_.film.filter().radius();
     const bool connect = counts_.connection > 0.0f;
-    std::vector<VertexCache> caches(blocks);
-    std::vector<std::vector<Splat>> splats(blocks);
+    const std::span<CacheBlock> caches = cache_.start(blocks);
+    splats_.resize(std::max(splats_.size(), blocks));
+    const std::span splats = std::span(splats_).first(blocks);
     context_.pool.parallel_for(blocks, [&](size_t block) {
       context_.cancel.throw_if_cancelled();
+      caches[block].clear();
+      splats[block].clear();
       Counters counters;
       const size_t block_end = std::min(end, begin + (block + 1) * kLightBlock);
       for (size_t i = begin + block * kLightBlock; i < block_end; ++i) {
@@ -134,29 +193,7 @@ class Bdpt final : public PassIntegrator {
       add(counters);
     });
     context_.film.add_splats(splats, context_.pool);
-    merge(caches);
-  }
-
-  // Concatenates in light-path order, whichever thread traced what.
-  void merge(std::vector<VertexCache>& blocks) {
-    size_t vertices = 0, lobes = 0;
-    for (const VertexCache& block : blocks) {
-      vertices += block.vertices.size();
-      lobes += block.lobes.size();
-    }
-    cache_.vertices.clear();
-    cache_.vertices.reserve(vertices);
-    cache_.lobes.clear();
-    cache_.lobes.reserve(lobes);
-    for (VertexCache& block : blocks) {
-      const auto first = static_cast<uint32_t>(cache_.lobes.size());
-      for (LightVertex& v : block.vertices) {
-        v.first_lobe += first;
-      }
-      cache_.vertices.insert(cache_.vertices.end(), block.vertices.begin(), block.vertices.end());
-      cache_.lobes.insert(cache_.lobes.end(), block.lobes.begin(), block.lobes.end());
-      block = {};
-    }
+    cache_.finish();
     cache_bytes_ = std::max(cache_bytes_, cache_.bytes());
   }
 
@@ -260,13 +297,13 @@ class Bdpt final : public PassIntegrator {
   // Cached vertices to be joined with a camera vertex.
   struct Picks {
     int count = 0;
-    std::array<const LightVertex*, kMaxConnections> vertices;
+    std::array<VertexCache::Entry, kMaxConnections> entries;
   };
 
   // Picks uniformly, and asks for the memory: it arrives while next event estimation is at work.
   Picks pick(Sampler& sampler) const {
     Picks picks;
-    const size_t size = cache_.vertices.size();
+    const size_t size = cache_.size();
     if (counts_.connection == 0.0f || size == 0) {
       return picks;
     }
@@ -274,9 +311,10 @@ class Bdpt final : public PassIntegrator {
     for (int n = 0; n < picks.count; ++n) {
       const size_t i =
           std::min(static_cast<size_t>(sampler.next_1d() * static_cast<double>(size)), size - 1);
-      picks.vertices[n] = &cache_.vertices[i];
-      __builtin_prefetch(picks.vertices[n]);
-      __builtin_prefetch(reinterpret_cast<const char*>(picks.vertices[n]) + 64);
+      picks.entries[n] = cache_.at(i);
+      const auto* bytes = reinterpret_cast<const char*>(picks.entries[n].vertex);
+      __builtin_prefetch(bytes);
+      __builtin_prefetch(bytes + 64);
     }
     return picks;
   }
@@ -285,15 +323,16 @@ class Bdpt final : public PassIntegrator {
               Counters& counters) const {
     Rgb sum(0.0f);
     // The actual size belongs to the estimate, the expected one (in counts_) to the weights.
-    const float scale = static_cast<float>(cache_.vertices.size()) /
+    const float scale = static_cast<float>(cache_.size()) /
                         (settings_.connections * static_cast<float>(wave_paths_));
     for (int n = 0; n < picks.count; ++n) {
       ++counters.connections;
-      const LightVertex& l = *picks.vertices[n];
+      const auto& [block, vertex] = picks.entries[n];
+      const LightVertex& l = *vertex;
       if (l.edges + v.edges + 1 > settings_.walk.max_edges) {
         continue;
       }
-      const BsdfView light_bsdf = cache_.bsdf(l);
+      const BsdfView light_bsdf = block->bsdf(l);
       __builtin_prefetch(light_bsdf.lobes().data());
       const auto c = connect_vertices(l, light_bsdf, v, mis_, scale, roulette, sampler, counters);
       if (c) {
@@ -318,7 +357,8 @@ class Bdpt final : public PassIntegrator {
   Mis mis_;
   size_t waves_ = 1, wave_paths_ = 0;
   VertexCache cache_;
-  size_t cache_bytes_ = 0;  // the largest so far
+  std::vector<std::vector<Splat>> splats_;  // by block of light paths
+  size_t cache_bytes_ = 0;                  // the largest so far
   RouletteMap roulette_;
   std::mutex check_mutex_;
   double weight_error_ = 0.0;
