@@ -12,6 +12,7 @@ failures, and the exit code is 1.
 from __future__ import annotations
 
 import argparse
+import fcntl
 import os
 import re
 import shutil
@@ -52,12 +53,19 @@ def main() -> int:
         for mistake in chosen:
             print(f"{mistake.name:<28} {mistake.number:>3}  {mistake.what}")
         return 0
-    copy_tree()
     outcomes = [Outcome(m, STALE, detail=problem) for m in chosen if (problem := stale(m))]
     for outcome in outcomes:
         print(line(outcome), flush=True)
     if options.check:
         return 1 if outcomes else 0
+    COPY.mkdir(parents=True, exist_ok=True)
+    lock = open(COPY / "lock", "w")  # closed, and with it given up, when the process ends
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        print("another ./dev mutate is at work in build/mutation", file=sys.stderr)
+        return 1
+    copy_tree()
     chosen = [m for m in chosen if not stale(m)]
     if not (configure() and prove_green(chosen)):
         return 1
@@ -126,11 +134,11 @@ def mutated(text: str, edit: Edit) -> str:
     return pattern(edit.old).sub(lambda _: edit.new, text)
 
 
-def apply(mistake: Mistake) -> dict[Path, str]:
-    """The changed files of the copy; raises Stale."""
+def apply(mistake: Mistake, root: Path) -> dict[Path, str]:
+    """The files under `root` that the mistake changes, and to what; raises Stale."""
     changed: dict[Path, str] = {}
     for edit in mistake.edits:
-        path = COPY / edit.file
+        path = root / edit.file
         if not path.is_file():
             raise Stale(f"{edit.file}: no such file")
         changed[path] = mutated(changed.get(path, path.read_text(encoding="utf-8")), edit)
@@ -139,7 +147,7 @@ def apply(mistake: Mistake) -> dict[Path, str]:
 
 def stale(mistake: Mistake) -> str:
     try:
-        apply(mistake)
+        apply(mistake, ROOT)
     except Stale as error:
         return str(error)
     return ""
@@ -221,7 +229,7 @@ def prove_green(chosen: list[Mistake]) -> bool:
 
 def try_mistake(mistake: Mistake, all_failures: bool) -> Outcome:
     begin = time.monotonic()
-    changed = apply(mistake)
+    changed = apply(mistake, COPY)
     original = {path: path.read_bytes() for path in changed}
     try:
         for path, text in changed.items():

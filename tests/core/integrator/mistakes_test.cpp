@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Scenes and settings in which mistakes show that the other tests were seen to miss (tests/mutation
+// makes them): few light paths in a pass, crossings of transparent surfaces, many lights.
+#include "support/pictures.h"
+#include "support/scene_kit.h"
+
+namespace janus::test {
+namespace {
+
+void expect_as_path_traced(const SceneKit& kit, RenderSettings settings, int reference) {
+  const auto scene = kit.build();
+  EXPECT_TRUE(scene->diagnostics.empty());
+  RenderSettings pt = settings;
+  pt.integrator = IntegratorType::PathTracer;
+  pt.samples = samples(reference);
+  expect_agreement(quarters(scene, settings), quarters(scene, pt));
+}
+
+SceneKit lit_box() { return open_box().light("l", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 20)); }
+
+// The number of cached vertices varies by half of itself from pass to pass; weights must not.
+TEST(Mistakes, AHandfulOfLightPathsPerPass) {
+  RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(256));
+  settings.light_paths = 2.0f / 256.0f;
+  settings.connections = 4.0f;
+  expect_as_path_traced(lit_box(), settings, 160);
+}
+
+// Panes that let a part of the light pass, across all kinds of edges of the paths.
+SceneKit panes() {
+  const NodeGraph pane =
+      combine("MIX_SHADER", diffuse(Rgb(0.7f)),
+              single("BSDF_TRANSPARENT", {{"Color", vec4(1, 0.9f, 0.8f, 1)}}), 0.7f);
+  return lit_box()
+      .add("low", plane(1.8f, 1.8f), pane, translation({0, 0, -0.5f}))
+      .add("high", plane(1.8f, 1.8f), pane, translation({0, 0, 0.5f}))
+      .add("upright", plane(1.8f, 1.8f), pane, rotation({0, 1, 0}, 1.4f));
+}
+
+TEST(Mistakes, Crossings) {
+  expect_as_path_traced(panes(), small_picture(IntegratorType::Bdpt, samples(48)), 160);
+}
+
+TEST(Mistakes, CrossingsAreLimitedAlongTheWholePath) {
+  RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(48));
+  settings.transparent_max_bounces = 1;
+  expect_as_path_traced(panes(), settings, 160);
+}
+
+// Large lamps at different places: hits and next event estimation matter alike, and the choice of
+// the light depends on where it is made.
+TEST(Mistakes, ManyLargeLights) {
+  SceneKit kit = open_box();
+  int i = 0;
+  for (const vec3 p : {vec3(-0.6f, 0.3f, -0.5f), vec3(0.6f, 0.4f, 0.5f), vec3(0.5f, -0.4f, -0.6f),
+                       vec3(-0.5f, -0.2f, 0.6f)}) {
+    const auto strength = static_cast<float>(1 << i);
+    kit.add("lamp" + std::to_string(i++), ball(0.3f, 6), emission(Rgb(1), strength),
+            translation(p));
+  }
+  expect_as_path_traced(kit, small_picture(IntegratorType::Bdpt, samples(32)), 96);
+}
+
+}  // namespace
+}  // namespace janus::test
