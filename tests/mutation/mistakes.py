@@ -42,6 +42,7 @@ CAMERA = "core/janus/camera/perspective.cpp"
 # What each kind of test is called. Wildcards, because files of tests are split and merged.
 ORACLE = "*Oracle*:*MisRecursion*"
 PICTURES = "*Agreement*:*Techniques*:*KnownAnswer*"
+CROSSINGS = "*Crossings*:*Transparency*"
 BSDFS = "*Bsdfs*:*Dielectric*:*Delta*:*Furnace*"
 
 
@@ -67,7 +68,7 @@ MISTAKES = (
         "crossing-in-pdf",
         1,
         "the chance to pass transparent surfaces in the densities of camera walks",
-        f"{ORACLE}:{PICTURES}",
+        f"{ORACLE}:{CROSSINGS}",
         SUBPATH,
         "const float cos_1 = std::abs(dot(ray.direction, v.hit.ng));",
         "const float cos_1 = std::abs(dot(ray.direction, v.hit.ng)) *"
@@ -310,7 +311,7 @@ MISTAKES = (
         "crossings-per-subpath",
         2,
         "the cap on transparent surfaces counts the camera side only",
-        PICTURES,
+        CROSSINGS,
         CONNECT,
         "c.crossings + l.crossings",
         "c.crossings",

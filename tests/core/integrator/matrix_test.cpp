@@ -56,9 +56,9 @@ std::vector<Pictures> render_all(const std::vector<Combination>& cases, MakeScen
         return quarters(scene, settings);
       };
       out[i].bdpt = picture(IntegratorType::Bdpt, 12);
-      out[i].lt = picture(IntegratorType::LightTracer, 32);
+      out[i].lt = picture(IntegratorType::LightTracer, 24);
       if (with_pt) {
-        out[i].pt = picture(IntegratorType::PathTracer, 24);
+        out[i].pt = picture(IntegratorType::PathTracer, 20);
       }
     }
   };
@@ -189,7 +189,7 @@ TEST(Matrix, SetCoversAllPairs) {
   EXPECT_EQ(set.size(), kSizes[0] * kSizes[1]);  // no fewer can do
 }
 
-TEST(Matrix, PairwiseAgreement) { compare(covering_set(kSizes), 0.003); }
+TEST(Matrix, PairwiseCoveringSet) { compare(covering_set(kSizes), 0.003); }
 
 // The diffuse floor from above, beside the ball and lit by way of it.
 SceneKit aside(const Combination& c) {
@@ -218,7 +218,7 @@ TEST(Matrix, CausticsOnDiffuseSurfaces) {
 
 class FullMatrix : public ::testing::TestWithParam<Combination> {};
 
-TEST_P(FullMatrix, Agreement) {
+TEST_P(FullMatrix, AllClosures) {
   std::vector<Combination> cases;
   for (const Combination& c : full_product(kSizes)) {
     if (c.level[0] == GetParam().level[0] && c.level[2] == GetParam().level[2]) {
