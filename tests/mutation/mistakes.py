@@ -18,6 +18,7 @@ CAMERA = "core/janus/camera/camera.h"
 # What each kind of test is called. Wildcards, because files of tests are split and merged.
 ORACLE = "*Oracle*:*MisRecursion*"
 PICTURES = "*Agreement*:*Techniques*:*KnownAnswer*:Mistakes*"
+CROSSINGS = "*Crossings*:*Transparency*:Mistakes.*"
 BSDFS = "*Bsdfs*:*Dielectric*:*Delta*:*Furnace*"
 
 MISTAKES = (
@@ -36,7 +37,7 @@ MISTAKES = (
         "crossing-in-pdf",
         1,
         "the chance to pass transparent surfaces in the densities of camera walks",
-        "Mistakes.*",
+        f"{ORACLE}:{CROSSINGS}",
         SUBPATH,
         "const float cos_1 = std::abs(dot(ray.direction, v.hit.ng));",
         "const float cos_1 = std::abs(dot(ray.direction, v.hit.ng)) *"
@@ -287,7 +288,7 @@ MISTAKES = (
         "crossings-per-subpath",
         2,
         "the cap on transparent surfaces counts the camera side only",
-        "Mistakes.*",
+        CROSSINGS,
         CONNECT,
         "c.crossings + l.crossings",
         "c.crossings",

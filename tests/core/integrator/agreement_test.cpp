@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Path tracing, light tracing and BDPT have the same expectation: for each kind of light, for
-// specular surfaces, for shading normals, and for every subset of the techniques. pt finds light by
-// NEE and by hits, lt by emission only, so agreement also ties a light's three densities together.
+// specular surfaces and for shading normals. pt finds light by NEE and by hits, lt by emission
+// only, so agreement also ties a light's three densities together.
 #include "support/pictures.h"
 #include "support/scene_kit.h"
 
@@ -15,13 +15,6 @@ struct AgreementScene {
   bool light_tracing;  // nothing is seen by way of a mirror or through glass
   int samples = 24;
 };
-
-// Two diffuse blocks, so that there are shadows and paths of every length.
-SceneKit room() {
-  return open_box()
-      .add("block", cuboid({-0.7f, -0.2f, -1}, {-0.2f, 0.4f, 0.1f}), diffuse(Rgb(0.7f)))
-      .add("low", cuboid({0.2f, -0.6f, -1}, {0.7f, 0.0f, -0.4f}), diffuse(Rgb(0.2f, 0.5f, 0.8f)));
-}
 
 const AgreementScene kScenes[] = {
     {"area", [] { return room().light("l", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 20)); }, true},
@@ -100,86 +93,6 @@ TEST_P(Agreement, AllIntegrators) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(kScenes),
                          [](const auto& info) { return std::string(info.param.name); });
-
-// --- Subsets of the techniques, on a scene where all of them matter ------------------------------
-
-class Techniques : public ::testing::Test {
- protected:
-  void expect_same(RenderSettings settings) {
-    RenderSettings reference = small_picture(IntegratorType::PathTracer, samples(160));
-    reference.max_bounces = settings.max_bounces;
-    expect_agreement(quarters(scene_, settings), quarters(scene_, reference));
-  }
-  const std::shared_ptr<const Scene> scene_ =
-      room()
-          .add("glass", ball(0.3f, 16, true), glass(Rgb(1), 1.5f), translation({0.5f, 0, 0.2f}))
-          .light("l", area_light({0, 0, 0.95f}, {0, 0, 0}, 0.9f, 20))
-          .build();
-  RenderSettings bdpt_ = small_picture(IntegratorType::Bdpt, samples(64));
-};
-
-TEST_F(Techniques, WithoutLightPaths) {
-  bdpt_.light_paths = 0.0f;
-  expect_same(bdpt_);
-}
-TEST_F(Techniques, WithoutConnections) {
-  bdpt_.connections = 0.0f;
-  expect_same(bdpt_);
-}
-TEST_F(Techniques, ManyConnections) {
-  bdpt_.connections = 3.5f;
-  expect_same(bdpt_);
-}
-TEST_F(Techniques, FewLightPaths) {
-  bdpt_.light_paths = 0.3f;
-  expect_same(bdpt_);
-}
-TEST_F(Techniques, PowerHeuristic) {
-  bdpt_.heuristic = Heuristic::Power;
-  expect_same(bdpt_);
-}
-TEST_F(Techniques, ManyWaves) {  // a cache too small for a pass
-  bdpt_.width = bdpt_.height = 64;
-  bdpt_.samples = samples(6);
-  bdpt_.cache_bytes = 1 << 16;
-  expect_same(bdpt_);
-}
-TEST_F(Techniques, CacheKeepsToItsLimit) {
-  bdpt_.width = bdpt_.height = 256;
-  bdpt_.samples = 1;
-  for (const size_t limit : {size_t{1} << 20, size_t{4} << 20}) {
-    bdpt_.cache_bytes = limit;
-    RenderSession session(scene_, bdpt_);
-    session.start();
-    session.finish();
-    EXPECT_LE(session.statistics().cache_bytes, limit);
-    EXPECT_GT(session.statistics().cache_bytes, limit / 2);
-  }
-}
-TEST_F(Techniques, PathLengths) {
-  for (const int bounces : {0, 1, 2}) {
-    bdpt_.max_bounces = bounces;
-    expect_same(bdpt_);
-  }
-}
-TEST_F(Techniques, WideFilter) {  // splats and camera samples see the same filter
-  bdpt_.filter = FilterType::BlackmanHarris;
-  bdpt_.filter_width = 4.0f;
-  RenderSettings reference = bdpt_;
-  reference.integrator = IntegratorType::PathTracer;
-  reference.samples = samples(160);
-  expect_agreement(quarters(scene_, bdpt_), quarters(scene_, reference));
-}
-
-TEST_F(Techniques, WeightsOfTheRendererFollowTheDefinition) {
-  bdpt_.check_weights = true;
-  bdpt_.samples = 2;
-  RenderSession session(scene_, bdpt_);
-  session.start();
-  session.finish();
-  EXPECT_GT(session.statistics().weight_error, 0.0);  // rounding: something was compared
-  EXPECT_LT(session.statistics().weight_error, 1e-4);
-}
 
 }  // namespace
 }  // namespace janus::test

@@ -44,6 +44,18 @@ const LengthCase kCases[] = {
            .add("ball", ball(0.5f, 10, true), diffuse(Rgb(0.9f)), translation({0.2f, 0, 0}))
            .light("l", area_light({1.7f, -0.3f, 0.2f}, {0, 0, -0.4f}, 0.8f, 30));
      }},
+    // Crossings are in no density, whichever walk passes them.
+    {"panes",
+     [] {
+       const NodeGraph pane = single("BSDF_TRANSPARENT", {{"Color", vec4(0.9f, 0.7f, 0.5f, 1)}});
+       return plates()
+           .add("pane", plane(1.4f, 1.4f), pane,
+                translation({0.9f, 0, 0.1f}) * rotation({0, 1, 0}, 1.4f))
+           .add("screen", plane(5, 5), combine("MIX_SHADER", diffuse(Rgb(0.8f)), pane),
+                translation({0, 0, 2}))
+           .add("low", plane(4, 4), pane, translation({0, 0, -0.6f}))
+           .light("l", area_light({1.6f, 0, 0.4f}, {0, 0, -0.6f}, 1.0f, 30));
+     }},
 };
 
 std::ostream& operator<<(std::ostream& out, const LengthCase& c) { return out << c.name; }

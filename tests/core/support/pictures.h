@@ -34,8 +34,8 @@ inline Image render(const std::shared_ptr<const Scene>& scene, const RenderSetti
 inline std::vector<Mean> quarters(const std::shared_ptr<const Scene>& scene,
                                   RenderSettings settings, int seeds = 12) {
   std::vector<Mean> means(5);
-  for (int i = 0; i < seeds; ++i) {
-    settings.seed = 1000 * (static_cast<uint32_t>(settings.integrator) + 1) + i;
+  settings.seed += 1000 * (static_cast<uint32_t>(settings.integrator) + 1);
+  for (int i = 0; i < seeds; ++i, ++settings.seed) {
     const Image image = render(scene, settings);
     double sums[5] = {};
     for (int y = 0; y < image.height; ++y) {

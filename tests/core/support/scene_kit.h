@@ -269,4 +269,11 @@ inline SceneKit open_box(Rgb albedo = Rgb(0.6f, 0.5f, 0.4f)) {
   return kit;
 }
 
+// The box with two diffuse blocks, so that there are shadows and paths of every length.
+inline SceneKit room() {
+  return open_box()
+      .add("block", cuboid({-0.7f, -0.2f, -1}, {-0.2f, 0.4f, 0.1f}), diffuse(Rgb(0.7f)))
+      .add("low", cuboid({0.2f, -0.6f, -1}, {0.7f, 0.0f, -0.4f}), diffuse(Rgb(0.2f, 0.5f, 0.8f)));
+}
+
 }  // namespace janus::test
