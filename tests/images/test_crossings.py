@@ -55,7 +55,7 @@ def test_parity(pictures, case, integrator, samples):
 
 
 def test_alpha(pictures):
-    """How much of the world each pane hides: the other half of its block is the backdrop, alpha 1."""
+    """How much of the world each pane hides; half of each block is the backdrop, alpha 1."""
     captured, cycles = pictures("film_transparent")
 
     def alpha(group):

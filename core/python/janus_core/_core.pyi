@@ -323,9 +323,9 @@ class RenderSession:
         """Waits for the end and raises what went wrong on the render threads, if anything."""
     def stats(self) -> _Stats:
         """Whole passes (samples), seconds of rendering, paths and rays by kind, joins (how far they
-        came before they were given up), light_vertices
-        (kept in the cache) and light_cache_bytes (its largest size), dropped (values that were not finite), weight_error (with
-        check_weights: the largest difference from the definition)."""
+        came before they were given up), light_vertices (kept in the cache) and light_cache_bytes
+        (its largest size), dropped (values that were not finite), weight_error (with check_weights:
+        the largest difference from the definition)."""
 
 def build_info() -> dict[str, Any]:
     """Versions of the core, of Embree and of the tools that it was built with."""
