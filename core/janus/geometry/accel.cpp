@@ -118,7 +118,7 @@ struct Accel::Impl {
   }
 
   bool occluded(RTCScene scene, vec3 a, vec3 b) const {
-    RTCRay query = to_embree(Ray{a, b - a, 1.0f - 0x1p-17f}).ray;
+    RTCRay query = to_embree(Ray{a, b - a, kShadowReach}).ray;
 #if RTC_VERSION_MAJOR >= 4
     rtcOccluded1(scene, &query, nullptr);
 #else

@@ -28,8 +28,12 @@ class Accel {
   // The nearest surface within (0, ray.t_max).
   std::optional<SurfaceInteraction> intersect(const Ray& ray) const;
 
-  // True if something lies on the open segment from `a` to `b` (points already off surfaces). The
-  // last 2^-17 of it does not count: a surface at `b` seen from afar is known no better.
+  // The share of a shadow ray that is traced: a surface at its end, seen from afar, is known no
+  // better than to the rest.
+  static constexpr float kShadowReach = 1.0f - 0x1p-17f;
+
+  // True if something lies on the open segment from `a` to `b` (points already off surfaces), up to
+  // kShadowReach of it.
   bool occluded(vec3 a, vec3 b) const;
 
   // The same among the instances with `opaque`, and the nearest surface among the others: together

@@ -7,9 +7,12 @@ Rgb Scene::transmittance_through(vec3 a, vec3 b, int max_crossings) const {
   if (accel->occluded_opaque(a, b)) {
     return Rgb(0.0f);
   }
-  const vec3 d = normalize(b - a);
+  const float length = glm::length(b - a);
+  const vec3 d = (b - a) / length;
+  // What `b` lies on is no crossing: the ray ends before it, as in Accel::occluded().
+  const float rest = (1.0f - Accel::kShadowReach) * length;
   Rgb result(1.0f);
-  Ray ray{a, d, glm::length(b - a)};
+  Ray ray{a, d, length - rest};
   for (int crossings = 0;; ++crossings) {
     const auto hit = accel->intersect_transparent(ray);
     if (!hit) {
@@ -20,7 +23,7 @@ Rgb Scene::transmittance_through(vec3 a, vec3 b, int max_crossings) const {
       return Rgb(0.0f);
     }
     ray.origin = offset_origin(hit->p, hit->ng, hit->offset, d);
-    ray.t_max = dot(b - ray.origin, d);
+    ray.t_max = dot(b - ray.origin, d) - rest;
     if (!(ray.t_max > 0.0f)) {
       return result;
     }

@@ -81,6 +81,11 @@ const CrossingScene kScenes[] = {
                 translation({0.4f, -0.9f, 0.1f}) * rotation({1, 0, 0}, 1.4f))
            .light("l", lamp());
      }},
+    {"alpha_lamp",
+     [] {
+       return stage().add("lamp", cuboid({0.2f, -1, 1.3f}, {0.9f, -0.4f, 1.7f}),
+                          glowing_alpha(0.6f, 12));
+     }},
     {"alpha_lamp_behind_panes",  // a closed one: its light crosses its own far side
      [] {
        return roof(window(stage().add("lamp", cuboid({0.2f, -1, 1.3f}, {0.9f, -0.4f, 1.7f}),
@@ -178,6 +183,31 @@ TEST(Transparency, PanesMultiplyUpToTheLimit) {
         }
       }
     }
+  }
+}
+
+// A shadow ray between two transparent surfaces crosses neither of them, from any distance.
+TEST(Transparency, EndsOfAShadowRayAreNotCrossed) {
+  for (const float distance : {0.5f, 2.0f, 30.0f}) {
+    SceneKit kit;
+    kit.add("a", plane(1, 1), transparent(Rgb(0.5f)));
+    kit.add("b", plane(2, 1), transparent(Rgb(0.5f)),
+            translation({0.3f, -0.2f, distance}) * rotation({1, 2, 3}, 0.4f));
+    const auto scene = kit.build();
+    Random random(3);
+    const auto point = [&](uint32_t instance) {
+      const float x = random.next();
+      return scene->accel->surface_point(instance, random.next() < 0.5f ? 0 : 1,
+                                         vec2(1 - x, x * random.next()));
+    };
+    int crossed = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const SurfaceInteraction a = point(i % 2), b = point(1 - i % 2);
+      const vec3 d = b.p - a.p;
+      crossed += scene->transmittance(offset_origin(a.p, a.ng, a.offset, d),
+                                      offset_origin(b.p, b.ng, b.offset, -d), 0) != Rgb(1);
+    }
+    EXPECT_EQ(crossed, 0) << "over " << distance << " m";
   }
 }
 
