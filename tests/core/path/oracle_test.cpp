@@ -76,6 +76,58 @@ const OracleScene kScenes[] = {
            .light("s", point_light({0.5f, -0.5f, 0.2f}, 5, 0.1f, false))
            .world(Rgb(0.3f));
      }},
+    {"rough",  // both sides of surfaces, densities that differ by the side that a walk comes from
+     [] {
+       const NodeGraph frosted = single("BSDF_GLASS", {{"Roughness", 0.4f}, {"IOR", 1.5f}});
+       return open_box()
+           .add("glass", ball(0.35f, 10, true), frosted, translation({0.4f, -0.2f, -0.3f}))
+           .add("bent", cuboid(vec3(-0.25f), vec3(0.25f)),
+                single("BSDF_REFRACTION", {{"Roughness", 0.5f}, {"IOR", 1.3f}}),
+                translation({-0.5f, -0.3f, -0.5f}) * rotation({1, 2, 0}, 0.6f))
+           .add("leaf", plane(0.8f, 0.8f), single("BSDF_TRANSLUCENT", {}),
+                translation({-0.4f, 0.2f, 0.3f}) * rotation({1, 1, 0}, 0.7f))
+           .add("metal", plane(1.4f, 1.4f), single("BSDF_GLOSSY", {{"Roughness", 0.5f}}),
+                translation({0, 0.9f, 0}) * rotation({1, 0, 0}, 1.4f))
+           .light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.6f, 20));
+     }},
+    {"principled",
+     [] {
+       const auto ball_of = [](SceneKit& kit, const char* name, vec3 p,
+                               std::map<std::string, NodeInput> inputs) {
+         kit.add(name, ball(0.3f, 10, true), single("BSDF_PRINCIPLED", std::move(inputs)),
+                 translation(p));
+       };
+       SceneKit kit = open_box();
+       ball_of(kit, "plastic", {-0.6f, 0, -0.5f}, {{"Roughness", 0.4f}});
+       ball_of(kit, "coated", {0, -0.2f, -0.5f}, {{"Roughness", 0.0f}});
+       ball_of(kit, "metal", {0.6f, 0, -0.5f}, {{"Roughness", 0.4f}, {"Metallic", 0.7f}});
+       ball_of(kit, "glassy", {-0.4f, 0.3f, 0.3f},
+               {{"Roughness", 0.5f}, {"Transmission Weight", 0.5f}});
+       ball_of(kit, "ember", {0.5f, 0.2f, 0.3f}, {{"Emission Strength", 2.0f}});
+       return kit.light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.6f, 20));
+     }},
+    {"crossings",  // they are in no density
+     [] {
+       const NodeGraph pane = single("BSDF_TRANSPARENT", {{"Color", vec4(0.9f, 0.7f, 0.5f, 1)}});
+       return open_box()
+           .add("pane", plane(1.9f, 1.9f), pane, translation({0, 0, 0.5f}))
+           .add("screen", plane(1.5f, 1.5f), combine("MIX_SHADER", diffuse(Rgb(0.8f)), pane),
+                rotation({1, 0, 0}, 1.3f))
+           .add("lamp", cuboid({-0.3f, -0.3f, 0.7f}, {0.3f, 0.3f, 0.9f}),
+                single("BSDF_PRINCIPLED", {{"Alpha", 0.5f}, {"Emission Strength", 5.0f}}));
+     }},
+    {"sun_spot_and_sky",
+     [] {
+       Image sky(8, 4, 3);
+       for (size_t i = 0; i < sky.pixels.size(); ++i) {
+         sky.pixels[i] = 0.1f * static_cast<float>(i % 7) + (i / 3 == 21 ? 5.0f : 0.0f);
+       }
+       return open_box()
+           .light("sun", sun_light({0.1f, -1, 0.4f}, 1, 0.3f))
+           .light("spot", spot_light({0.3f, -0.2f, 0.8f}, {0, 0, -0.5f}, 20, 1.4f, 0.4f))
+           .light("soft", spot_light({-0.4f, 0, 0.8f}, {0, 0, -0.5f}, 20, 1.2f, 0.4f, 0.2f))
+           .world(std::move(sky));
+     }},
 };
 
 std::ostream& operator<<(std::ostream& out, const OracleScene& scene) { return out << scene.name; }
