@@ -48,7 +48,8 @@ std::vector<Pictures> render_all(const std::vector<Combination>& cases, MakeScen
       const auto scene = make(cases[i]).build();
       EXPECT_TRUE(scene->diagnostics.empty()) << name(cases[i]);
       const auto picture = [&](IntegratorType integrator, int count) {
-        RenderSettings settings = small_picture(integrator, full() ? 8 * count : count);
+        const int more = integrator == IntegratorType::LightTracer ? 16 : 8;
+        RenderSettings settings = small_picture(integrator, full() ? more * count : count);
         settings.max_bounces = 4;
         settings.threads = 1;
         // Errors of different combinations are independent, so that they may be pooled.
