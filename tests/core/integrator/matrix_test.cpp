@@ -48,7 +48,9 @@ std::vector<Pictures> render_all(const std::vector<Combination>& cases, MakeScen
       const auto scene = make(cases[i]).build();
       EXPECT_TRUE(scene->diagnostics.empty()) << name(cases[i]);
       const auto picture = [&](IntegratorType integrator, int count) {
-        const int more = integrator == IntegratorType::LightTracer ? 16 : 8;
+        const int more = integrator != IntegratorType::LightTracer ? 8
+                         : light_of(cases[i]).sparse               ? 40
+                                                                   : 16;
         RenderSettings settings = small_picture(integrator, full() ? more * count : count);
         settings.max_bounces = 4;
         settings.threads = 1;
