@@ -134,17 +134,24 @@ std::optional<BsdfSample> BsdfView::sample(vec3 from, float u_lobe, vec2 u,
 
 std::optional<BsdfSample> BsdfView::sample_direction(const Lobe& lobe, vec3 from, float u_event,
                                                      vec2 u, TransportMode mode) const {
+  std::optional<BsdfSample> sample;
   const auto to = sample_lobe(lobe, ng_, from, u_event, u, mode);
   if (!to) {
-    return std::nullopt;
+    return sample;
   }
   const bool radiance = mode == TransportMode::Radiance;
   const BsdfEval e = evaluate(radiance ? from : *to, radiance ? *to : from, mode);
   const float pdf = radiance ? e.pdf_radiance : e.pdf_importance;
   if (!(pdf > 0.0f)) {
-    return std::nullopt;  // on the wrong side of the surface, or of the shading normal
+    return sample;  // on the wrong side of the surface, or of the shading normal
   }
-  return BsdfSample{*to, e.f / pdf, pdf, radiance ? e.pdf_importance : e.pdf_radiance, false};
+  sample.emplace();
+  sample->direction = *to;
+  sample->weight = e.f / pdf;
+  sample->pdf_solid = pdf;
+  sample->pdf_reverse = radiance ? e.pdf_importance : e.pdf_radiance;
+  sample->delta = false;
+  return sample;
 }
 
 std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen, vec3 from, float u,
