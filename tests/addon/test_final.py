@@ -84,6 +84,7 @@ def test_settings_reach_the_core(scene, fake_core):
         "light_paths": 0.5,
         "connections": 2.0,
         "heuristic": "POWER",
+        "adaptive_counts": True,
         "film_transparent": True,
     }
 
