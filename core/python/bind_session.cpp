@@ -30,7 +30,8 @@ constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Wa
 using Crop = std::optional<std::array<int, 4>>;
 
 RenderSettings make_settings(int width, int height, const Crop& crop, int samples, double seconds,
-                             uint32_t seed, int threads, int max_bounces,
+                             uint32_t seed, int threads, int max_bounces, int max_diffuse_bounces,
+                             int max_glossy_bounces, int max_transmission_bounces,
                              int transparent_max_bounces, const std::string& integrator,
                              const std::string& filter, float filter_width, float light_paths,
                              float connections, const std::string& heuristic, bool film_transparent,
@@ -46,6 +47,9 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
   s.seed = seed;
   s.threads = threads;
   s.max_bounces = max_bounces;
+  s.max_diffuse_bounces = max_diffuse_bounces;
+  s.max_glossy_bounces = max_glossy_bounces;
+  s.max_transmission_bounces = max_transmission_bounces;
   s.transparent_max_bounces = transparent_max_bounces;
   s.integrator = from_name(kIntegrators, integrator, "integrator");
   s.filter = from_name(kFilters, filter, "filter");
@@ -71,6 +75,9 @@ py::dict to_dict(const RenderSettings& s) {
   d["seed"] = s.seed;
   d["threads"] = s.threads;
   d["max_bounces"] = s.max_bounces;
+  d["max_diffuse_bounces"] = s.max_diffuse_bounces;
+  d["max_glossy_bounces"] = s.max_glossy_bounces;
+  d["max_transmission_bounces"] = s.max_transmission_bounces;
   d["transparent_max_bounces"] = s.transparent_max_bounces;
   d["integrator"] = to_name(kIntegrators, s.integrator);
   d["filter"] = to_name(kFilters, s.filter);
@@ -91,6 +98,7 @@ void bind_settings(py::module_& m) {
       "What to render of a scene: immutable, checked when made (SceneError names the setting). "
       "crop: (x0, y0, x1, y1) in pixels of the full frame from the bottom left; seconds: time "
       "limit, 0 for none; threads: 0 for all; max_bounces: as in Cycles, 0 is direct light; "
+      "max_diffuse_bounces, max_glossy_bounces, max_transmission_bounces: of them by kind; "
       "transparent_max_bounces: surfaces passed by alpha or transparency; "
       "integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
       "pixels; light_paths per pixel; connections per camera vertex; heuristic: BALANCE or POWER; "
@@ -99,6 +107,9 @@ void bind_settings(py::module_& m) {
   settings.def(py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
                "crop"_a = py::none(), "samples"_a = d.samples, "seconds"_a = d.seconds,
                "seed"_a = d.seed, "threads"_a = d.threads, "max_bounces"_a = d.max_bounces,
+               "max_diffuse_bounces"_a = d.max_diffuse_bounces,
+               "max_glossy_bounces"_a = d.max_glossy_bounces,
+               "max_transmission_bounces"_a = d.max_transmission_bounces,
                "transparent_max_bounces"_a = d.transparent_max_bounces,
                "integrator"_a = to_name(kIntegrators, d.integrator),
                "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,

@@ -223,7 +223,8 @@ class Bdpt final : public PassIntegrator {
 
   void splat(const PathVertex& v, Sampler& sampler, float margin, std::vector<Splat>& out,
              Counters& counters) const {
-    const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_);
+    const auto s =
+        connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk);
     if (!s) {
       return;
     }
@@ -334,7 +335,8 @@ class Bdpt final : public PassIntegrator {
       }
       const BsdfView light_bsdf = block->bsdf(l);
       __builtin_prefetch(light_bsdf.lobes().data());
-      const auto c = connect_vertices(l, light_bsdf, v, mis_, scale, roulette, sampler, counters);
+      const auto c = connect_vertices(l, light_bsdf, v, mis_, settings_.walk, scale, roulette,
+                                      sampler, counters);
       if (c) {
         uint64_t with_value = 0;
         sum += arriving(weighted(*c, l.edges + 1, v.edges + 1), *c, roulette, sampler, with_value,

@@ -45,7 +45,8 @@ class LightTracer final : public PassIntegrator {
 
   void splat(const PathVertex& v, Sampler& sampler, float margin, size_t count,
              std::vector<Splat>& out, Counters& counters) const {
-    const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_);
+    const auto s =
+        connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk);
     const int crossings = settings_.walk.max_crossings - v.crossings;
     if (!s || crossings < 0 || !usable(s->connection.value, counters)) {
       return;

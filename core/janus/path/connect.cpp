@@ -14,6 +14,7 @@ LightVertex::LightVertex(const PathVertex& v)
       first_lobe(0),
       edges(static_cast<uint16_t>(v.edges)),
       crossings(static_cast<uint16_t>(v.crossings)),
+      bounces(v.bounces),
       lobe_count(0),
       transmits(v.bsdf().transmits()) {}
 
@@ -47,7 +48,8 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
 }
 
 std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_bsdf,
-                                           const PathVertex& c, const Mis& mis, float scale,
+                                           const PathVertex& c, const Mis& mis,
+                                           const PathRules& rules, float scale,
                                            const Roulette& roulette, Sampler& sampler,
                                            Counters& counters) {
   const vec3 d = l.p - c.hit.p;
@@ -78,6 +80,17 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   if (is_black(at_light.f)) {
     return std::nullopt;
   }
+  if (rules.caps_bind(l.edges + c.edges + 1)) {
+    const BounceCounts bounces = l.bounces + c.bounces;
+    const auto camera_label = LabelShares::joined(at_camera, cos_camera * dot(wo, c.hit.ng) < 0.0f);
+    const auto light_label = LabelShares::joined(at_light, cos_light * dot(l.wi, l.ng) < 0.0f);
+    const float share = l.edges == 1 ? rules.caps.share(bounces, camera_label)
+                                     : rules.caps.share(bounces, camera_label, light_label);
+    if (share == 0.0f) {
+      return std::nullopt;
+    }
+    scale *= share;
+  }
   ++counters.connections_evaluated;
   const float pdf_area_light = at_camera.pdf_radiance * std::abs(cos_light) / d2;
   const float pdf_area_camera = at_light.pdf_importance * std::abs(cos_camera) / d2;
@@ -89,7 +102,7 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
 }
 
 std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera, vec2 u_lens,
-                                             float margin, const Mis& mis) {
+                                             float margin, const Mis& mis, const PathRules& rules) {
   const auto to_camera = camera.connect(v.hit.p, u_lens, margin);
   if (!to_camera) {
     return std::nullopt;
@@ -100,11 +113,19 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
   if (is_black(e.f)) {
     return std::nullopt;
   }
+  float share = 1.0f;
+  if (rules.caps_bind(v.edges + 1) && v.edges > 1) {
+    const bool transmitted = dot(wo, v.hit.ng) * dot(v.back, v.hit.ng) < 0.0f;
+    share = rules.caps.share(v.bounces, LabelShares::joined(e, transmitted));
+    if (share == 0.0f) {
+      return std::nullopt;
+    }
+  }
   const float importance = to_camera->importance();
   const float weight =
       mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)), e.pdf_radiance);
   return CameraSplat{
-      {v.beta * e.f * (importance / to_camera->pmf), weight,
+      {v.beta * e.f * (share * importance / to_camera->pmf), weight,
        offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo), to_camera->target, v.crossings},
       to_camera->raster,
       {v.hit.p + std::sqrt(to_camera->distance2) * wo, to_camera->density}};

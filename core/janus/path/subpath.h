@@ -9,9 +9,7 @@
 
 namespace janus {
 
-struct WalkSettings {
-  int max_edges = 14;     // edges of a whole path; Cycles' max_bounces + 2
-  int max_crossings = 8;  // of transparent surfaces on a whole path
+struct WalkSettings : PathRules {
   bool roulette = true;
 };
 
@@ -33,13 +31,14 @@ struct WalkStep {
   ClassSums behind;
   Rgb beta;
   float cos_previous;
+  RayType label = RayType::Diffuse;  // if the rules count
 };
 
 // Scatters at `v` and applies roulette. `start`: throughput 1 of this walk; `eta_scale`: product
 // of the refractions so far. nullopt when the walk ends.
 inline std::optional<WalkStep> scatter(const PathVertex& v, const Mis& mis, Sampler& sampler,
-                                       TransportMode mode, bool roulette, float start,
-                                       float& eta_scale) {
+                                       TransportMode mode, const WalkSettings& settings,
+                                       float start, float& eta_scale) {
   const float u_lobe = sampler.next_1d();
   const vec2 u = sampler.next_2d();
   const auto sample = v.bsdf().sample(v.back, u_lobe, u, mode);
@@ -48,7 +47,7 @@ inline std::optional<WalkStep> scatter(const PathVertex& v, const Mis& mis, Samp
   }
   Rgb beta = v.beta * sample->weight;
   eta_scale *= sample->eta_scale;
-  const float q = roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
+  const float q = settings.roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
   if (is_black(beta) || !is_finite(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
     return std::nullopt;
   }
@@ -58,7 +57,8 @@ inline std::optional<WalkStep> scatter(const PathVertex& v, const Mis& mis, Samp
                   {sample->delta, sample->pdf_solid, sample->pdf_reverse},
                   mis.behind(v.mis, sample->delta, sample->pdf_reverse),
                   beta,
-                  std::abs(dot(d, v.hit.ng))};
+                  std::abs(dot(d, v.hit.ng)),
+                  settings.counts() ? LabelShares::sampled(*sample).draw(sampler) : RayType()};
 }
 
 inline bool usable_density(float pdf) { return pdf > 0.0f && std::isfinite(pdf); }
@@ -116,9 +116,16 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     }
     sampler.start_block(v.edges);
     const auto step =
-        scatter(v, mis, sampler, TransportMode::Importance, settings.roulette, start, eta_scale);
+        scatter(v, mis, sampler, TransportMode::Importance, settings, start, eta_scale);
     if (!step) {
       return;
+    }
+    // z_1 is next to the light, it is no bounce.
+    if (settings.counts() && v.edges > 1) {
+      v.bounces = v.bounces.with(step->label);
+      if (!settings.caps.allow(v.bounces)) {
+        return;
+      }
     }
     v.beta = step->beta;
     const vec3 previous = v.hit.p;
@@ -203,7 +210,9 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     const float cos_1 = std::abs(dot(ray.direction, v.hit.ng));
     const float pdf_area =
         v.edges == 1 ? camera_density(start.density, cos_1, d2) : step.left.pdf_solid * cos_1 / d2;
-    if (v.edges + 1 > settings.max_edges || !usable_density(pdf_area)) {
+    // The last bounce is one only if the path goes on from here.
+    if (v.edges + 1 > settings.max_edges || !settings.caps.allow(v.bounces) ||
+        !usable_density(pdf_area)) {
       return alpha;
     }
     v.mis = v.edges == 1
@@ -213,10 +222,12 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     sampler.start_block(v.edges);
     on_vertex(v, sampler);
 
-    const auto next =
-        scatter(v, mis, sampler, TransportMode::Radiance, settings.roulette, 1.0f, eta_scale);
+    const auto next = scatter(v, mis, sampler, TransportMode::Radiance, settings, 1.0f, eta_scale);
     if (!next) {
       return alpha;
+    }
+    if (settings.counts()) {
+      v.bounces = v.bounces.with(next->label);
     }
     previous = receiver(v.hit, v.bsdf(), v.back);
     step = *next;

@@ -230,6 +230,9 @@ class RenderSettings:
         seed: int = 0,
         threads: int = 0,
         max_bounces: int = 12,
+        max_diffuse_bounces: int = 1024,
+        max_glossy_bounces: int = 1024,
+        max_transmission_bounces: int = 1024,
         transparent_max_bounces: int = 8,
         integrator: Literal["bdpt", "pt", "lt"] = "bdpt",
         filter: Literal["BLACKMAN_HARRIS", "GAUSSIAN", "BOX"] = "BLACKMAN_HARRIS",
@@ -268,6 +271,15 @@ class RenderSettings:
     @property
     def max_bounces(self) -> int:
         """As in Cycles: 0 is direct light only."""
+    @property
+    def max_diffuse_bounces(self) -> int:
+        """Of them by diffuse reflection, as Cycles counts; the one next to the light is none."""
+    @property
+    def max_glossy_bounces(self) -> int:
+        """By glossy reflection, mirrors included."""
+    @property
+    def max_transmission_bounces(self) -> int:
+        """By transmission: glass, refraction, translucency."""
     @property
     def transparent_max_bounces(self) -> int:
         """How many surfaces a path may pass by alpha or transparency."""
