@@ -205,9 +205,10 @@ class Bdpt final : public PassIntegrator {
     return c.value * c.weight;
   }
 
-  // What arrives of `value` over the shadow ray of `c`; `samples` and `rays` are counted.
-  Rgb arriving(Rgb value, const Connection& c, const Roulette& roulette, Sampler& sampler,
-               uint64_t& samples, uint64_t& rays) const {
+  // What arrives of `value` over the shadow ray of `c`, which completes a path of `edges` edges;
+  // `samples` and `rays` are counted.
+  Rgb arriving(Rgb value, const Connection& c, int edges, const Roulette& roulette,
+               Sampler& sampler, uint64_t& samples, uint64_t& rays) const {
     if (is_black(value)) {
       return value;
     }
@@ -218,7 +219,8 @@ class Bdpt final : public PassIntegrator {
       return Rgb(0.0f);
     }
     ++rays;
-    return value * scale * context_.scene.transmittance(c.from, c.to, crossings);
+    const Rgb arrived = value * context_.scene.transmittance(c.from, c.to, crossings);
+    return settings_.clamp(arrived, edges) * scale;
   }
 
   void splat(const PathVertex& v, Sampler& sampler, float margin, std::vector<Splat>& out,
@@ -230,7 +232,7 @@ class Bdpt final : public PassIntegrator {
     }
     const Connection& c = s->connection;
     const Rgb value =
-        arriving(weighted(c, v.edges + 1, 1) / static_cast<float>(light_paths_), c,
+        arriving(weighted(c, v.edges + 1, 1) / static_cast<float>(light_paths_), c, v.edges + 1,
                  roulette_.at(s->raster), sampler, counters.splats, counters.splat_rays);
     if (usable(value, counters)) {
       out.push_back({s->raster, value});
@@ -267,7 +269,7 @@ class Bdpt final : public PassIntegrator {
             return;
           }
           const Connection c{found.beta * found.hit.radiance, found.weight, {}, {}, 0};
-          gather(weighted(c, 0, found.edges + 1));
+          gather(settings_.clamp(weighted(c, 0, found.edges + 1), found.edges));
         },
         [&](const PathVertex& v, Sampler& walk) {
           if (v.bsdf().connectible()) {
@@ -291,8 +293,8 @@ class Bdpt final : public PassIntegrator {
     if (!nee) {
       return Rgb(0.0f);
     }
-    return arriving(weighted(nee->connection, 1, v.edges + 1), nee->connection, roulette, sampler,
-                    counters.nee_samples, counters.nee_rays);
+    return arriving(weighted(nee->connection, 1, v.edges + 1), nee->connection, v.edges + 1,
+                    roulette, sampler, counters.nee_samples, counters.nee_rays);
   }
 
   // Cached vertices to be joined with a camera vertex.
@@ -339,8 +341,8 @@ class Bdpt final : public PassIntegrator {
                                       sampler, counters);
       if (c) {
         uint64_t with_value = 0;
-        sum += arriving(weighted(*c, l.edges + 1, v.edges + 1), *c, roulette, sampler, with_value,
-                        counters.connection_rays);
+        sum += arriving(weighted(*c, l.edges + 1, v.edges + 1), *c, l.edges + v.edges + 1, roulette,
+                        sampler, with_value, counters.connection_rays);
       }
     }
     return sum;

@@ -7,6 +7,7 @@
 
 #include "janus/camera/camera.h"
 #include "janus/film/film.h"
+#include "janus/integrator/clamp.h"
 #include "janus/path/counters.h"
 #include "janus/path/mis.h"
 #include "janus/path/subpath.h"
@@ -24,6 +25,7 @@ struct Technique {
 
 struct IntegratorSettings {
   WalkSettings walk;
+  Clamp clamp;
   Heuristic heuristic = Heuristic::Balance;
   float light_paths = 1.0f;  // per pixel
   float connections = 1.0f;  // per camera vertex, expected

@@ -55,7 +55,7 @@ class LightTracer final : public PassIntegrator {
     const Rgb value = s->connection.value *
                       context_.scene.transmittance(s->connection.from, s->connection.to, crossings);
     if (!is_black(value)) {
-      out.push_back({s->raster, value / static_cast<float>(count)});
+      out.push_back({s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1)});
     }
   }
 
@@ -73,7 +73,7 @@ class LightTracer final : public PassIntegrator {
             context_.scene, context_.camera, raster, mis_, one_edge, sampler, counters,
             [&](const LightFound& found) {
               if (!(settings_.film_transparent && context_.scene.lights[found.light]->infinite())) {
-                sum += found.beta * found.hit.radiance;
+                sum += settings_.clamp(found.beta * found.hit.radiance, 1);
               }
             },
             [](const PathVertex&, Sampler&) {});

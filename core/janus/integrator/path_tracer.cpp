@@ -63,7 +63,8 @@ class PathTracer final : public PassIntegrator {
         walk.delta
             ? 0.0f
             : lights.pmf_illumination(walk.previous, index, hit.primitive) * hit.pdf_illumination;
-    return walk.beta * hit.radiance * (walk.delta ? 1.0f : weight(walk.pdf_solid, pdf_nee));
+    const float w = walk.delta ? 1.0f : weight(walk.pdf_solid, pdf_nee);
+    return settings_.clamp(walk.beta * hit.radiance * w, walk.edges);
   }
 
   // The lamps on the present segment, which ends at `t_end`, or nowhere.
@@ -127,7 +128,8 @@ class PathTracer final : public PassIntegrator {
       const BsdfView bsdf = shading.bsdf.view(hit->ng);
       sampler.start_block(walk.edges);
       if (bsdf.connectible() && scene.light_sampler.illuminates()) {
-        sum += walk.beta * direct(*hit, bsdf, wo, walk.crossings, sampler, counters);
+        sum += settings_.clamp(
+            walk.beta * direct(*hit, bsdf, wo, walk.crossings, sampler, counters), walk.edges + 1);
       }
 
       const float u_lobe = sampler.next_1d();
@@ -163,7 +165,7 @@ class PathTracer final : public PassIntegrator {
 
   bool beyond_caps(const std::array<int, 3>& bounces) const {
     for (int i = 0; i < 3; ++i) {
-      if (bounces[i] > settings_.walk.caps.of[i]) {
+      if (bounces[i] > settings_.walk.caps[i]) {
         return true;
       }
     }

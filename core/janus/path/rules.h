@@ -13,12 +13,16 @@ namespace janus {
 
 // Cycles' limits of bounces by label. Of the scattering vertices z_1 ... z_{k-1}, all but z_1,
 // which the light shines on, are bounces: a limit of 0 leaves direct light.
-struct BounceCaps {
-  int of[3] = {1024, 1024, 1024};  // by RayType
+class BounceCaps {
+ public:
+  BounceCaps() : BounceCaps(1024, 1024, 1024) {}
+  BounceCaps(int diffuse, int glossy, int transmission)
+      : caps_{diffuse, glossy, transmission}, least_(std::min({diffuse, glossy, transmission})) {}
 
-  int least() const { return std::min({of[0], of[1], of[2]}); }
+  int least() const { return least_; }
+  int operator[](int label) const { return caps_[label]; }
   bool allow(const BounceCounts& counts) const {
-    return counts.of[0] <= of[0] && counts.of[1] <= of[1] && counts.of[2] <= of[2];
+    return counts.of[0] <= caps_[0] && counts.of[1] <= caps_[1] && counts.of[2] <= caps_[2];
   }
   // The share of a path with `counts` and a vertex more that is allowed.
   float share(const BounceCounts& counts, const LabelShares& vertex) const {
@@ -39,6 +43,10 @@ struct BounceCaps {
     }
     return sum;
   }
+
+ private:
+  int caps_[3];  // by RayType
+  int least_;
 };
 
 struct PathRules {

@@ -32,6 +32,10 @@ void RenderSettings::validate() const {
                                     {transparent_max_bounces, "transparent_max_bounces"}}) {
     require(value >= 0 && value <= 1024, name, "must be from 0 to 1024");
   }
+  require(std::isfinite(clamp_direct) && clamp_direct >= 0.0f, "clamp_direct",
+          "must be finite and at least 0");
+  require(std::isfinite(clamp_indirect) && clamp_indirect >= 0.0f, "clamp_indirect",
+          "must be finite and at least 0");
   require(std::isfinite(filter_width) && filter_width > 0.0f && filter_width <= 100.0f,
           "filter_width", "must be above 0 and at most 100 pixels");
   require(std::isfinite(light_paths) && light_paths >= 0.0f && light_paths <= 64.0f, "light_paths",

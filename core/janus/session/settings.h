@@ -23,6 +23,8 @@ struct RenderSettings {
   int max_glossy_bounces = 1024;
   int max_transmission_bounces = 1024;
   int transparent_max_bounces = 8;  // surfaces that a path passes by alpha or transparency
+  // Most that a contribution of direct or of indirect light adds to a sample; 0: no limit.
+  float clamp_direct = 0.0f, clamp_indirect = 0.0f;
   IntegratorType integrator = IntegratorType::Bdpt;
   FilterType filter = FilterType::BlackmanHarris;
   float filter_width = 1.5f;  // pixels

@@ -234,6 +234,8 @@ class RenderSettings:
         max_glossy_bounces: int = 1024,
         max_transmission_bounces: int = 1024,
         transparent_max_bounces: int = 8,
+        clamp_direct: float = 0.0,
+        clamp_indirect: float = 0.0,
         integrator: Literal["bdpt", "pt", "lt"] = "bdpt",
         filter: Literal["BLACKMAN_HARRIS", "GAUSSIAN", "BOX"] = "BLACKMAN_HARRIS",
         filter_width: float = 1.5,
@@ -283,6 +285,12 @@ class RenderSettings:
     @property
     def transparent_max_bounces(self) -> int:
         """How many surfaces a path may pass by alpha or transparency."""
+    @property
+    def clamp_direct(self) -> float:
+        """The most that a contribution of direct light adds to a sample; 0: no limit."""
+    @property
+    def clamp_indirect(self) -> float:
+        """Likewise of indirect light. A bias: caustics lose light first."""
     @property
     def integrator(self) -> Literal["bdpt", "pt", "lt"]:
         """Bidirectional path tracing, path tracing, light tracing."""
