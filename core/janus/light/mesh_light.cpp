@@ -72,21 +72,28 @@ std::optional<EmissionSample> MeshLight::sample_emission(vec2 u_position, vec2 u
 
 std::optional<IlluminationSample> MeshLight::sample_illumination(vec3 receiver, uint32_t primitive,
                                                                  vec2 u) const {
+  std::optional<IlluminationSample> sample;
   const Triangle& triangle = this->triangle(primitive);
   const vec3 p = accel_.position(instance_, primitive, square_to_triangle(u));
   const vec3 target = offset_origin(p, triangle.ng, triangle.offset, receiver - p);
   const vec3 d = target - receiver;
   const float d2 = length2(d);
   if (d2 == 0.0f) {
-    return std::nullopt;
+    return sample;
   }
   const vec3 wi = d / std::sqrt(d2);
   const float cos_light = std::abs(dot(wi, triangle.ng));
   if (cos_light == 0.0f) {
-    return std::nullopt;
+    return sample;
   }
-  return IlluminationSample{
-      wi, target, d2, triangle.radiance, triangle.pdf_area * d2 / cos_light, triangle.density};
+  sample.emplace();
+  sample->wi = wi;
+  sample->target = target;
+  sample->distance2 = d2;
+  sample->radiance = triangle.radiance;
+  sample->pdf_solid = triangle.pdf_area * d2 / cos_light;
+  sample->emission = triangle.density;
+  return sample;
 }
 
 float MeshLight::pdf_illumination(const EmissionSample& sample, vec3 endpoint,

@@ -20,6 +20,7 @@ LightVertex::LightVertex(const PathVertex& v)
 
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& v,
                                                 const Mis& mis, Sampler& sampler) {
+  std::optional<LightConnection> joined;
   const float u_light = sampler.next_1d();
   const vec2 u = sampler.next_2d();
   const BsdfView bsdf = v.bsdf();
@@ -28,23 +29,26 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   const Light& light = *scene.lights[choice.light];
   const auto sample = light.sample_illumination(v.hit.p, choice.primitive, u);
   if (!sample) {
-    return std::nullopt;
+    return joined;
   }
   const vec3 wi = sample->wi;
   const BsdfEval e = bsdf.evaluate(v.back, wi, TransportMode::Radiance);
   if (is_black(e.f)) {
-    return std::nullopt;
+    return joined;
   }
   const float pdf_nee = choice.pmf * sample->pdf_solid;
   const float pdf_hit = light.hittable() ? e.pdf_radiance : 0.0f;
   const float joint =
       scene.light_sampler.pmf_emission(choice.light) *
       emission_density(sample->emission, std::abs(dot(wi, v.hit.ng)), sample->distance2);
-  const float weight = mis.weight_nee(pdf_nee, pdf_hit, joint, v.mis, e.pdf_importance);
-  return LightConnection{
-      {v.beta * e.f * sample->radiance / pdf_nee, weight,
-       offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wi), sample->target, v.crossings},
-      {joint, pdf_nee, light.hittable(), wi}};
+  joined.emplace();
+  joined->connection.value = v.beta * e.f * sample->radiance / pdf_nee;
+  joined->connection.weight = mis.weight_nee(pdf_nee, pdf_hit, joint, v.mis, e.pdf_importance);
+  joined->connection.from = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wi);
+  joined->connection.to = sample->target;
+  joined->connection.crossings = v.crossings;
+  joined->end = {joint, pdf_nee, light.hittable(), wi};
+  return joined;
 }
 
 std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_bsdf,
@@ -52,10 +56,11 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
                                            const PathRules& rules, float scale,
                                            const Roulette& roulette, Sampler& sampler,
                                            Counters& counters) {
+  std::optional<Connection> joined;
   const vec3 d = l.p - c.hit.p;
   const float d2 = length2(d);
   if (!(d2 > 0.0f)) {
-    return std::nullopt;
+    return joined;
   }
   const vec3 wi = d / std::sqrt(d2), wo = c.back;
   const BsdfView camera_bsdf = c.bsdf();
@@ -63,22 +68,22 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   // Both ends must scatter to the side where the other end is.
   if ((cos_camera * dot(wo, c.hit.ng) <= 0.0f && !camera_bsdf.transmits()) ||
       (cos_light * dot(l.wi, l.ng) <= 0.0f && !l.transmits)) {
-    return std::nullopt;
+    return joined;
   }
   ++counters.connections_facing;
   scale /= d2;
   const float bound = max_component(c.beta) * camera_bsdf.peak() * l.bound *
                       std::abs(cos_camera * cos_light) * scale;
   if (!roulette.survives(bound, sampler, scale)) {
-    return std::nullopt;
+    return joined;
   }
   const BsdfEval at_camera = camera_bsdf.evaluate(wo, wi, TransportMode::Radiance);
   if (is_black(at_camera.f)) {
-    return std::nullopt;
+    return joined;
   }
   const BsdfEval at_light = light_bsdf.evaluate(-wi, l.wi, TransportMode::Importance);
   if (is_black(at_light.f)) {
-    return std::nullopt;
+    return joined;
   }
   if (rules.caps_bind(l.edges + c.edges + 1)) {
     const BounceCounts bounces = l.bounces + c.bounces;
@@ -87,48 +92,55 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
     const float share = l.edges == 1 ? rules.caps.share(bounces, camera_label)
                                      : rules.caps.share(bounces, camera_label, light_label);
     if (share == 0.0f) {
-      return std::nullopt;
+      return joined;
     }
     scale *= share;
   }
   ++counters.connections_evaluated;
   const float pdf_area_light = at_camera.pdf_radiance * std::abs(cos_light) / d2;
   const float pdf_area_camera = at_light.pdf_importance * std::abs(cos_camera) / d2;
-  const float weight = mis.weight_connection(l.mis, pdf_area_light, at_light.pdf_radiance, c.mis,
-                                             pdf_area_camera, at_camera.pdf_importance);
-  return Connection{c.beta * at_camera.f * at_light.f * l.beta * scale, weight,
-                    offset_origin(c.hit.p, c.hit.ng, c.hit.offset, wi),
-                    offset_origin(l.p, l.ng, l.offset, -wi), c.crossings + l.crossings};
+  joined.emplace();
+  joined->value = c.beta * at_camera.f * at_light.f * l.beta * scale;
+  joined->weight = mis.weight_connection(l.mis, pdf_area_light, at_light.pdf_radiance, c.mis,
+                                         pdf_area_camera, at_camera.pdf_importance);
+  joined->from = offset_origin(c.hit.p, c.hit.ng, c.hit.offset, wi);
+  joined->to = offset_origin(l.p, l.ng, l.offset, -wi);
+  joined->crossings = c.crossings + l.crossings;
+  return joined;
 }
 
 std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera, vec2 u_lens,
                                              float margin, const Mis& mis, const PathRules& rules) {
+  std::optional<CameraSplat> splat;
   const auto to_camera = camera.connect(v.hit.p, u_lens, margin);
   if (!to_camera) {
-    return std::nullopt;
+    return splat;
   }
   const BsdfView bsdf = v.bsdf();
   const vec3 wo = to_camera->wo;
   const BsdfEval e = bsdf.evaluate(wo, v.back, TransportMode::Importance);
   if (is_black(e.f)) {
-    return std::nullopt;
+    return splat;
   }
   float share = 1.0f;
   if (rules.caps_bind(v.edges + 1) && v.edges > 1) {
     const bool transmitted = dot(wo, v.hit.ng) * dot(v.back, v.hit.ng) < 0.0f;
     share = rules.caps.share(v.bounces, LabelShares::joined(e, transmitted));
     if (share == 0.0f) {
-      return std::nullopt;
+      return splat;
     }
   }
   const float importance = to_camera->importance();
-  const float weight =
-      mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)), e.pdf_radiance);
-  return CameraSplat{
-      {v.beta * e.f * (share * importance / to_camera->pmf), weight,
-       offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo), to_camera->target, v.crossings},
-      to_camera->raster,
-      {v.hit.p + std::sqrt(to_camera->distance2) * wo, to_camera->density}};
+  splat.emplace();
+  Connection& joined = splat->connection;
+  joined.value = v.beta * e.f * (share * importance / to_camera->pmf);
+  joined.weight = mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)), e.pdf_radiance);
+  joined.from = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo);
+  joined.to = to_camera->target;
+  joined.crossings = v.crossings;
+  splat->raster = to_camera->raster;
+  splat->end = {v.hit.p + std::sqrt(to_camera->distance2) * wo, to_camera->density};
+  return splat;
 }
 
 }  // namespace janus

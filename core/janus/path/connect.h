@@ -15,7 +15,7 @@ namespace janus {
 
 struct Connection {
   Rgb value;
-  float weight;
+  MisWeight weight;
   vec3 from, to;  // shadow ray, both ends off their surfaces
   int crossings;  // of transparent surfaces that the path has so far
 };

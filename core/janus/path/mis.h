@@ -40,19 +40,28 @@ struct ClassSums {
     return {hit + o.hit, nee + o.nee, connection + o.connection, splat + o.splat};
   }
 };
+inline float dot(const ClassSums& a, const ClassSums& b) {
+  return a.hit * b.hit + a.nee * b.nee + a.connection * b.connection + a.splat * b.splat;
+}
 
 struct MisState {
   ClassSums a, b;
+};
+
+// What a path weighs in the technique that made it. `densities`: of all techniques that can make
+// the path, without counts and relative to this one, which is among them as a 1. With them the
+// weight for any other counts is a dot product away.
+struct MisWeight {
+  float value = 1.0f;
+  ClassSums densities;
 };
 
 class Mis {
  public:
   Mis(Heuristic heuristic, const SampleCounts& counts)
       : power_(heuristic == Heuristic::Power),
-        hit_(raise(counts.hit)),
-        nee_(raise(counts.nee)),
-        connection_(raise(counts.connection)),
-        splat_(raise(counts.splat)) {}
+        counts_{raise(counts.hit), raise(counts.nee), raise(counts.connection),
+                raise(counts.splat)} {}
 
   // At z_1, first vertex of a light subpath. `joint`: J; `pdf_nee`: pN; `hittable`: can a camera
   // path reach the light?
@@ -89,54 +98,56 @@ class Mis {
 
   // s=0, k>=2: light found by the camera walk with density `pdf_solid` from z_1, where `behind`
   // lies behind z_1 and `delta` says how z_1 scattered.
-  float weight_hit(float pdf_solid, bool delta, float pdf_nee, float joint,
-                   const ClassSums& behind) const {
-    const float nee = delta ? 0.0f : nee_ * raise(pdf_nee / pdf_solid);
-    return weight(nee + raise(joint / pdf_solid) * total(behind), hit_);
+  MisWeight weight_hit(float pdf_solid, bool delta, float pdf_nee, float joint,
+                       const ClassSums& behind) const {
+    ClassSums d = behind * raise(joint / pdf_solid);
+    d.nee += delta ? 0.0f : raise(pdf_nee / pdf_solid);
+    d.hit += 1.0f;
+    return weight(counts_.hit, d);
   }
 
   // s=1: next event estimation at z_1 with state `camera`. `pdf_hit`: density of the camera walk
   // going to the light (0 if it cannot be hit); `pdf_forward`: of a light walk leaving z_1 towards
   // the camera.
-  float weight_nee(float pdf_nee, float pdf_hit, float joint, const MisState& camera,
-                   float pdf_forward) const {
-    const float others =
-        hit_ * raise(pdf_hit / pdf_nee) + raise(joint / pdf_nee) * total(camera, pdf_forward);
-    return weight(others, nee_);
+  MisWeight weight_nee(float pdf_nee, float pdf_hit, float joint, const MisState& camera,
+                       float pdf_forward) const {
+    ClassSums d = sum(camera, pdf_forward) * raise(joint / pdf_nee);
+    d.hit += raise(pdf_hit / pdf_nee);
+    d.nee += 1.0f;
+    return weight(counts_.nee, d);
   }
 
   // s>=2, t>=2. For each end: its state, the density per area with which the other end's walk
   // would have drawn it, and the density with which that walk would go on.
-  float weight_connection(const MisState& light, float pdf_area_light, float pdf_on_light,
-                          const MisState& camera, float pdf_area_camera,
-                          float pdf_on_camera) const {
-    return weight(raise(pdf_area_light) * total(light, pdf_on_light) +
-                      raise(pdf_area_camera) * total(camera, pdf_on_camera),
-                  connection_);
+  MisWeight weight_connection(const MisState& light, float pdf_area_light, float pdf_on_light,
+                              const MisState& camera, float pdf_area_camera,
+                              float pdf_on_camera) const {
+    ClassSums d = sum(light, pdf_on_light) * raise(pdf_area_light) +
+                  sum(camera, pdf_on_camera) * raise(pdf_area_camera);
+    d.connection += 1.0f;
+    return weight(counts_.connection, d);
   }
 
   // t=1: light subpath joined to the camera, which would have drawn the vertex with
   // `pdf_area_light` per pixel and gone on with `pdf_on_light`.
-  float weight_splat(const MisState& light, float pdf_area_light, float pdf_on_light) const {
-    return weight(raise(pdf_area_light) * total(light, pdf_on_light), splat_);
+  MisWeight weight_splat(const MisState& light, float pdf_area_light, float pdf_on_light) const {
+    ClassSums d = sum(light, pdf_on_light) * raise(pdf_area_light);
+    d.splat += 1.0f;
+    return weight(counts_.splat, d);
   }
 
  private:
   float raise(float x) const { return power_ ? x * x : x; }
-  float total(const ClassSums& s) const {
-    return hit_ * s.hit + nee_ * s.nee + connection_ * s.connection + splat_ * s.splat;
+  ClassSums sum(const MisState& state, float pdf_on) const {
+    return state.a + state.b * raise(pdf_on);
   }
-  float total(const MisState& state, float pdf_on) const {
-    return total(state.a) + total(state.b) * raise(pdf_on);
-  }
-  // `others` is relative to a technique of count 1.
-  static float weight(float others, float count) {
-    const float w = count / (count + others);
-    return std::isfinite(w) ? w : 0.0f;  // 0 * inf on absurdly long specular chains
+  MisWeight weight(float count, const ClassSums& densities) const {
+    const float w = count / dot(counts_, densities);
+    return {std::isfinite(w) ? w : 0.0f, densities};  // 0 * inf on absurdly long specular chains
   }
 
   bool power_;
-  float hit_, nee_, connection_, splat_;
+  ClassSums counts_;
 };
 
 }  // namespace janus

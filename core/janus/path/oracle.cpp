@@ -173,7 +173,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
             FullPath path = join(light, v.edges, {}, 0);
             set_light(path, light[0].light_end);
             path.camera = splat->end;
-            compare(path, v.edges + 1, splat->connection.weight);
+            compare(path, v.edges + 1, splat->connection.weight.value);
           }
         });
   }
@@ -187,7 +187,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
     set_delta(path.interior.front(), found.previous, TransportMode::Radiance);
     set_light(path, found.end);
     path.camera = camera_vertices[0].camera_end;
-    compare(path, 0, found.weight);
+    compare(path, 0, found.weight.value);
   };
   const auto on_vertex = [&](const PathVertex& v, Sampler& walk_sampler) {
     camera_vertices.push_back(v);
@@ -197,7 +197,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
         FullPath path = join({}, 0, camera_vertices, j);
         set_light(path, nee->end);
         path.camera = camera_vertices[0].camera_end;
-        compare(path, 1, nee->connection.weight);
+        compare(path, 1, nee->connection.weight.value);
       }
     }
     for (int i = 1; i <= static_cast<int>(light.size()) && counts.connection > 0.0f; ++i) {
@@ -207,7 +207,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
         FullPath path = join(light, i, camera_vertices, j);
         set_light(path, light[0].light_end);
         path.camera = camera_vertices[0].camera_end;
-        compare(path, i + 1, connection->weight);
+        compare(path, i + 1, connection->weight.value);
       }
     }
   };

@@ -19,7 +19,7 @@ struct LightFound {
   LightHit hit;
   Rgb beta;
   int edges;
-  float weight;        // MIS weight; 1 for edges == 1
+  MisWeight weight;    // 1 for edges == 1
   LightEnd end;        // for edges > 1
   Departure previous;  // how z_1 was left
 };
@@ -34,31 +34,34 @@ struct WalkStep {
   RayType label = RayType::Diffuse;  // if the rules count
 };
 
-// Scatters at `v` and applies roulette. `start`: throughput 1 of this walk; `eta_scale`: product
-// of the refractions so far. nullopt when the walk ends.
-inline std::optional<WalkStep> scatter(const PathVertex& v, const Mis& mis, Sampler& sampler,
-                                       TransportMode mode, const WalkSettings& settings,
-                                       float start, float& eta_scale) {
+// Scatters at `v`, applies roulette and writes `step`. `start`: throughput 1 of this walk;
+// `eta_scale`: product of the refractions so far. False when the walk ends.
+inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, TransportMode mode,
+                    const WalkSettings& settings, float start, float& eta_scale, WalkStep& step) {
   const float u_lobe = sampler.next_1d();
   const vec2 u = sampler.next_2d();
   const auto sample = v.bsdf().sample(v.back, u_lobe, u, mode);
   if (!sample) {
-    return std::nullopt;
+    return false;
   }
   Rgb beta = v.beta * sample->weight;
   eta_scale *= sample->eta_scale;
   const float q = settings.roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
   if (is_black(beta) || !is_finite(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
-    return std::nullopt;
+    return false;
   }
-  beta /= q;
   const vec3 d = sample->direction;
-  return WalkStep{Ray{offset_origin(v.hit.p, v.hit.ng, v.hit.offset, d), d},
-                  {sample->delta, sample->pdf_solid, sample->pdf_reverse},
-                  mis.behind(v.mis, sample->delta, sample->pdf_reverse),
-                  beta,
-                  std::abs(dot(d, v.hit.ng)),
-                  settings.counts() ? LabelShares::sampled(*sample).draw(sampler) : RayType()};
+  step.ray.origin = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, d);
+  step.ray.direction = d;
+  step.ray.t_max = kInfinity;
+  step.left = {sample->delta, sample->pdf_solid, sample->pdf_reverse};
+  step.behind = mis.behind(v.mis, sample->delta, sample->pdf_reverse);
+  step.beta = beta / q;
+  step.cos_previous = std::abs(dot(d, v.hit.ng));
+  if (settings.counts()) {
+    step.label = LabelShares::sampled(*sample).draw(sampler);
+  }
+  return true;
 }
 
 inline bool usable_density(float pdf) { return pdf > 0.0f && std::isfinite(pdf); }
@@ -109,37 +112,36 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   v.light_end = {joint, pdf_nee, light.hittable(), v.back};
   v.mis = mis.begin_light(joint, pdf_nee, light.hittable());
   float eta_scale = 1.0f;
+  WalkStep step;
   for (;;) {
     on_vertex(v, sampler);
     if (v.edges + 2 > settings.max_edges) {
       return;
     }
     sampler.start_block(v.edges);
-    const auto step =
-        scatter(v, mis, sampler, TransportMode::Importance, settings, start, eta_scale);
-    if (!step) {
+    if (!scatter(v, mis, sampler, TransportMode::Importance, settings, start, eta_scale, step)) {
       return;
     }
     // z_1 is next to the light, it is no bounce.
     if (settings.counts() && v.edges > 1) {
-      v.bounces = v.bounces.with(step->label);
+      v.bounces = v.bounces.with(step.label);
       if (!settings.caps.allow(v.bounces)) {
         return;
       }
     }
-    v.beta = step->beta;
+    v.beta = step.beta;
     const vec3 previous = v.hit.p;
-    if (!fly(scene, step->ray, settings.max_crossings, sampler, counters.light_rays, v, nothing)) {
+    if (!fly(scene, step.ray, settings.max_crossings, sampler, counters.light_rays, v, nothing)) {
       return;
     }
     const float d2 = length2(v.hit.p - previous);
-    const float pdf_area = step->left.pdf_solid * std::abs(dot(step->ray.direction, v.hit.ng)) / d2;
+    const float pdf_area = step.left.pdf_solid * std::abs(dot(step.ray.direction, v.hit.ng)) / d2;
     if (!usable_density(pdf_area)) {
       return;
     }
-    v.mis = mis.advance(step->behind, step->left.delta, step->cos_previous / d2, pdf_area);
-    v.back = -step->ray.direction;
-    v.previous = step->left;
+    v.mis = mis.advance(step.behind, step.left.delta, step.cos_previous / d2, pdf_area);
+    v.back = -step.ray.direction;
+    v.previous = step.left;
     ++v.edges;
   }
 }
@@ -166,7 +168,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     const auto found = [&](size_t index, const LightHit& hit) {
       if (v.edges == 1) {
         if (scene.lights[index]->visible_camera) {
-          on_light(LightFound{index, hit, v.beta, 1, 1.0f, {}, {}});
+          on_light(LightFound{index, hit, v.beta, 1, {}, {}, {}});
         }
         return;
       }
@@ -222,15 +224,13 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     sampler.start_block(v.edges);
     on_vertex(v, sampler);
 
-    const auto next = scatter(v, mis, sampler, TransportMode::Radiance, settings, 1.0f, eta_scale);
-    if (!next) {
+    if (!scatter(v, mis, sampler, TransportMode::Radiance, settings, 1.0f, eta_scale, step)) {
       return alpha;
     }
     if (settings.counts()) {
-      v.bounces = v.bounces.with(next->label);
+      v.bounces = v.bounces.with(step.label);
     }
     previous = receiver(v.hit, v.bsdf(), v.back);
-    step = *next;
     v.beta = step.beta;
   }
 }

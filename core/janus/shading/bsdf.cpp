@@ -139,19 +139,25 @@ std::optional<BsdfSample> BsdfView::sample(vec3 from, float u_lobe, vec2 u,
 
 std::optional<BsdfSample> BsdfView::sample_direction(const Lobe& lobe, vec3 from, float u_event,
                                                      vec2 u, TransportMode mode) const {
+  std::optional<BsdfSample> sample;
   const auto to = sample_lobe(lobe, ng_, from, u_event, u, mode);
   if (!to) {
-    return std::nullopt;
+    return sample;
   }
   const bool radiance = mode == TransportMode::Radiance;
   const BsdfEval e = evaluate(radiance ? from : *to, radiance ? *to : from, mode);
   const float pdf = radiance ? e.pdf_radiance : e.pdf_importance;
   if (!(pdf > 0.0f)) {
-    return std::nullopt;  // on the wrong side of the surface, or of the shading normal
+    return sample;  // on the wrong side of the surface, or of the shading normal
   }
-  BsdfSample sample{*to, e.f / pdf, pdf, radiance ? e.pdf_importance : e.pdf_radiance, false};
-  sample.transmitted = dot(from, ng_) * dot(*to, ng_) < 0.0f;
-  sample.share_diffuse = e.diffuse > 0.0f ? e.diffuse / average(e.f) : 0.0f;
+  sample.emplace();
+  sample->direction = *to;
+  sample->weight = e.f / pdf;
+  sample->pdf_solid = pdf;
+  sample->pdf_reverse = radiance ? e.pdf_importance : e.pdf_radiance;
+  sample->delta = false;
+  sample->transmitted = dot(from, ng_) * dot(*to, ng_) < 0.0f;
+  sample->share_diffuse = e.diffuse > 0.0f ? e.diffuse / average(e.f) : 0.0f;
   return sample;
 }
 

@@ -70,18 +70,24 @@ float recursive_weight(const RandomPath& path, const Mis& mis, int s, float wron
                          path.to_light[i], path.pr(i - 1));
   }
   if (s == 0) {
-    return mis.weight_hit(path.pr(0), path.delta[1], path.pdf_nee, path.joint,
-                          mis.behind(camera, path.delta[1], path.forward[1]));
+    return mis
+        .weight_hit(path.pr(0), path.delta[1], path.pdf_nee, path.joint,
+                    mis.behind(camera, path.delta[1], path.forward[1]))
+        .value;
   }
   if (s == 1) {
-    return mis.weight_nee(path.pdf_nee, path.hittable ? path.pr(0) : 0.0f, path.joint, camera,
-                          path.forward[1]);
+    return mis
+        .weight_nee(path.pdf_nee, path.hittable ? path.pr(0) : 0.0f, path.joint, camera,
+                    path.forward[1])
+        .value;
   }
   if (s == path.k) {
-    return mis.weight_splat(light, path.pr(s - 1), path.backward[s - 1]);
+    return mis.weight_splat(light, path.pr(s - 1), path.backward[s - 1]).value;
   }
-  return mis.weight_connection(light, path.pr(s - 1), path.backward[s - 1], camera, path.pf(s),
-                               path.forward[s]);
+  return mis
+      .weight_connection(light, path.pr(s - 1), path.backward[s - 1], camera, path.pf(s),
+                         path.forward[s])
+      .value;
 }
 
 class MisRecursion : public ::testing::TestWithParam<std::tuple<Heuristic, SampleCounts>> {};

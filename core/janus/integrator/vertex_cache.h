@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The light-vertex cache: what the light paths of a wave leave for camera vertices to join.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "janus/path/connect.h"
+
+namespace janus {
+
+// Connectible light vertices of a block of light paths, with their lobes in one pool.
+struct CacheBlock {
+  std::vector<LightVertex> vertices;
+  std::vector<Lobe> lobes;
+
+  void clear() {
+    vertices.clear();
+    lobes.clear();
+  }
+  void add(const PathVertex& v) {
+    LightVertex out(v);
+    out.first_lobe = static_cast<uint32_t>(lobes.size());
+    const BsdfView bsdf = v.bsdf();
+    for (const Lobe& lobe : bsdf.lobes()) {
+      if (!is_delta(lobe)) {  // view-free and connectible: the rest is never asked for
+        lobes.push_back(lobe);
+        ++out.lobe_count;
+      }
+    }
+    vertices.push_back(out);
+  }
+  BsdfView bsdf(const LightVertex& v) const {
+    return {std::span(lobes).subspan(v.first_lobe, v.lobe_count), v.ng};
+  }
+  size_t bytes() const {
+    return vertices.size() * sizeof(LightVertex) + lobes.size() * sizeof(Lobe);
+  }
+};
+
+// The cache: blocks in the order of the light paths, whichever thread traced what. They keep their
+// memory from pass to pass.
+class VertexCache {
+ public:
+  std::span<CacheBlock> start(size_t blocks) {
+    if (blocks_.size() < blocks) {
+      blocks_.resize(blocks);
+    }
+    count_ = blocks;
+    return {blocks_.data(), blocks};
+  }
+
+  // Counts what the blocks hold.
+  void finish() {
+    first_.assign(1, 0);
+    for (size_t i = 0; i < count_; ++i) {
+      first_.push_back(first_.back() + blocks_[i].vertices.size());
+    }
+  }
+
+  size_t size() const { return first_.back(); }
+  size_t bytes() const {
+    size_t sum = 0;
+    for (size_t i = 0; i < count_; ++i) {
+      sum += blocks_[i].bytes();
+    }
+    return sum;
+  }
+
+  struct Entry {
+    const CacheBlock* block;
+    const LightVertex* vertex;
+  };
+  // Entry `i` in the order of the light paths. Blocks are about equally full, so the guess is
+  // close.
+  Entry at(size_t i) const {
+    size_t block = std::min(i * count_ / size(), count_ - 1);
+    while (first_[block] > i) {
+      --block;
+    }
+    while (first_[block + 1] <= i) {
+      ++block;
+    }
+    return {&blocks_[block], &blocks_[block].vertices[i - first_[block]]};
+  }
+
+ private:
+  std::vector<CacheBlock> blocks_;
+  size_t count_ = 0;              // blocks in use
+  std::vector<size_t> first_{0};  // number of the block's first entry; the total at the end
+};
+
+}  // namespace janus
