@@ -3,6 +3,7 @@
 
 import bpy
 from bpy.props import (
+    BoolProperty,
     EnumProperty,
     FloatProperty,
     IntProperty,
@@ -71,6 +72,12 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         description="How light is found",
         items=INTEGRATORS,
         default="BDPT",
+    )
+    adaptive_counts: BoolProperty(
+        name="Automatic",
+        description="Starts with the numbers below, measures their use in the scene, and goes on "
+        "with those that clear the picture soonest. Where light paths do not help, none are traced",
+        default=True,
     )
     light_paths: FloatProperty(
         name="Light Paths",

@@ -85,6 +85,7 @@ def render_settings(depsgraph) -> dict:
         "filter_width": janus.filter_width,
         "light_paths": janus.light_paths,
         "connections": janus.connections,
+        "adaptive_counts": janus.adaptive_counts,
         "heuristic": janus.heuristic,
         "film_transparent": render.film_transparent,
     }

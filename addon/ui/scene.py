@@ -37,6 +37,7 @@ class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
         column.prop(janus, "integrator")
         column = column.column()
         column.active = janus.integrator == "BDPT"
+        column.prop(janus, "adaptive_counts")
         column.prop(janus, "light_paths")
         column.prop(janus, "connections")
         column.prop(janus, "heuristic")

@@ -35,8 +35,8 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
                              int transparent_max_bounces, float clamp_direct, float clamp_indirect,
                              const std::string& integrator, const std::string& filter,
                              float filter_width, float light_paths, float connections,
-                             const std::string& heuristic, bool film_transparent, bool roulette,
-                             bool check_weights) {
+                             bool adaptive_counts, const std::string& heuristic,
+                             bool film_transparent, bool roulette, bool check_weights) {
   RenderSettings s;
   s.width = width;
   s.height = height;
@@ -59,6 +59,7 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
   s.filter_width = filter_width;
   s.light_paths = light_paths;
   s.connections = connections;
+  s.adaptive_counts = adaptive_counts;
   s.heuristic = from_name(kHeuristics, heuristic, "heuristic");
   s.film_transparent = film_transparent;
   s.roulette = roulette;
@@ -89,6 +90,7 @@ py::dict to_dict(const RenderSettings& s) {
   d["filter_width"] = s.filter_width;
   d["light_paths"] = s.light_paths;
   d["connections"] = s.connections;
+  d["adaptive_counts"] = s.adaptive_counts;
   d["heuristic"] = to_name(kHeuristics, s.heuristic);
   d["film_transparent"] = s.film_transparent;
   d["roulette"] = s.roulette;
@@ -108,7 +110,9 @@ void bind_settings(py::module_& m) {
       "clamp_direct, clamp_indirect: the most that a contribution adds to a sample, 0 for no "
       "limit; "
       "integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
-      "pixels; light_paths per pixel; connections per camera vertex; heuristic: BALANCE or POWER; "
+      "pixels; light_paths per pixel; connections per camera vertex; "
+      "adaptive_counts: bdpt starts with these two and then takes what is most efficient for the "
+      "scene; heuristic: BALANCE or POWER; "
       "roulette: False traces every path and every shadow ray to its end (slow); "
       "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
   settings.def(
@@ -122,8 +126,9 @@ void bind_settings(py::module_& m) {
       "clamp_indirect"_a = d.clamp_indirect, "integrator"_a = to_name(kIntegrators, d.integrator),
       "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
       "light_paths"_a = d.light_paths, "connections"_a = d.connections,
-      "heuristic"_a = to_name(kHeuristics, d.heuristic), "film_transparent"_a = d.film_transparent,
-      "roulette"_a = d.roulette, "check_weights"_a = d.check_weights);
+      "adaptive_counts"_a = d.adaptive_counts, "heuristic"_a = to_name(kHeuristics, d.heuristic),
+      "film_transparent"_a = d.film_transparent, "roulette"_a = d.roulette,
+      "check_weights"_a = d.check_weights);
   settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
   settings.def("__repr__", [](const RenderSettings& s) {
     return py::str("RenderSettings(**{!r})").format(to_dict(s));
@@ -197,6 +202,8 @@ py::dict stats(const RenderSession& self) {
   d["light_vertices"] = c.light_vertices;
   d["light_cache_bytes"] = s.cache_bytes;
   d["dropped"] = c.dropped;
+  d["effort"] =
+      py::dict("light_paths"_a = s.effort.light_paths, "connections"_a = s.effort.connections);
   d["weight_error"] = s.weight_error;
   return d;
 }

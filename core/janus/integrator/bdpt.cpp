@@ -7,6 +7,7 @@
 //
 // To bound the cache, a pass runs in waves: a range of its light paths with a cache of their own,
 // then an interleaved subset of its pixels.
+#include "janus/integrator/adaptive_counts.h"
 #include "janus/integrator/pass.h"
 #include "janus/integrator/roulette_map.h"
 #include "janus/integrator/vertex_cache.h"
@@ -17,6 +18,7 @@ namespace janus {
 namespace {
 
 constexpr size_t kPilotPaths = 4096;
+constexpr int kMeasuredPass = 1;      // adaptive counts; the pass before it shows what is bright
 constexpr size_t kOracleStride = 97;  // debug mode checks every 97th pixel
 constexpr int kMaxConnections = 65;   // RenderSettings allows 64, and one may be added by chance
 
@@ -24,54 +26,108 @@ class Bdpt final : public PassIntegrator {
  public:
   Bdpt(const RenderContext& context, const IntegratorSettings& settings)
       : PassIntegrator(context, settings),
-        light_paths_(light_path_count()),
+        effort_{settings.light_paths, settings.connections},
         mis_(settings.heuristic, counts_) {
     run_pilot();
+    set_effort(effort_);
+    if (!settings_.only && !settings_.check_weights) {
+      path_tracer_ = make_path_tracer(context, settings);
+    }
   }
 
   void render_pass(int pass) override {
+    // Without light paths this is path tracing, at its cost.
+    if (light_paths_ == 0 && path_tracer_) {
+      path_tracer_->render_pass(pass);
+      return;
+    }
     if (settings_.contribution_roulette && !settings_.only) {
       roulette_.update(context_.film, pass);
     }
+    const bool measure = pass == kMeasuredPass && adapts();
+    if (measure) {
+      meter_.emplace(counts_);
+    }
+    const Counters before = counters();
     for (size_t wave = 0; wave < waves_; ++wave) {
-      trace_lights(pass, wave);
+      trace_lights(wave);
       trace_camera(pass, wave);
+    }
+    first_light_path_ += light_paths_;
+    if (measure) {
+      Counters work = counters();
+      adapt(work -= before);
     }
   }
 
+  Counters counters() const override {
+    Counters sum = PassIntegrator::counters();
+    return path_tracer_ ? sum += path_tracer_->counters() : sum;
+  }
+  Effort effort() const override { return effort_; }
   double weight_error() const override { return weight_error_; }
   size_t cache_bytes() const override { return cache_bytes_; }
 
  private:
+  // Weights with a square tell less about other counts, and debugging wants the counts given.
+  bool adapts() const {
+    return settings_.adaptive_counts && settings_.heuristic == Heuristic::Balance &&
+           !settings_.only && effort_.light_paths > 0.0f && effort_.connections > 0.0f &&
+           light_paths_ > 0 && counts_.connection > 0.0f;
+  }
+
+  // Are there paths that camera walks cannot make? A light that cannot be hit, behind a delta.
+  bool needs_light_paths() const {
+    const Scene& scene = context_.scene;
+    return std::ranges::any_of(scene.lights, [](const auto& l) { return !l->hittable(); }) &&
+           std::ranges::any_of(scene.programs, [](const Program& p) {
+             return std::ranges::any_of(p.lobes, is_delta);
+           });
+  }
+
+  void adapt(const Counters& work) {
+    const Effort factor = AdaptiveCounts::choose(moments_, work, needs_light_paths());
+    set_effort({effort_.light_paths * factor.light_paths,
+                std::min(effort_.connections * factor.connections, kMaxConnections - 1.0f)});
+    meter_.reset();
+  }
+
   // Measures the vertices that a light path leaves in the cache. The weights need that number
   // before the pass: with the pass's own count, weight and estimate would be correlated.
   void run_pilot() {
-    counts_.splat = static_cast<float>(light_paths_);
-    if (light_paths_ > 0 && settings_.connections > 0.0f) {
-      constexpr size_t kBlocks = 16;
-      std::array<CacheBlock, kBlocks> caches;
-      context_.pool.parallel_for(kBlocks, [&](size_t block) {
-        context_.cancel.throw_if_cancelled();
-        Counters ignored;
-        for (size_t i = 0; i < kPilotPaths / kBlocks; ++i) {
-          Sampler sampler(settings_.seed, Stream::Pilot, 0, block * (kPilotPaths / kBlocks) + i);
-          trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, ignored,
-                              [&](const PathVertex& v, Sampler&) { cache(v, caches[block]); });
-        }
-      });
-      size_t vertices = 0, bytes = 0;
-      for (const CacheBlock& c : caches) {
-        vertices += c.vertices.size();
-        bytes += c.bytes();
-      }
-      if (vertices > 0) {
-        counts_.connection = settings_.connections * kPilotPaths / vertices;
-        const double pass_bytes = static_cast<double>(bytes) / kPilotPaths * light_paths_;
-        // A wave without light paths would leave its pixels without connections.
-        waves_ = std::min(1 + static_cast<size_t>(1.1 * pass_bytes / settings_.cache_bytes),
-                          std::max<size_t>(1, light_paths_ / kLightBlock));
-      }
+    if (light_path_count(effort_.light_paths) == 0 || effort_.connections == 0.0f) {
+      return;
     }
+    constexpr size_t kBlocks = 16;
+    std::array<CacheBlock, kBlocks> caches;
+    context_.pool.parallel_for(kBlocks, [&](size_t block) {
+      context_.cancel.throw_if_cancelled();
+      Counters ignored;
+      for (size_t i = 0; i < kPilotPaths / kBlocks; ++i) {
+        Sampler sampler(settings_.seed, Stream::Pilot, 0, block * (kPilotPaths / kBlocks) + i);
+        trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, ignored,
+                            [&](const PathVertex& v, Sampler&) { cache(v, caches[block]); });
+      }
+    });
+    size_t vertices = 0, bytes = 0;
+    for (const CacheBlock& c : caches) {
+      vertices += c.vertices.size();
+      bytes += c.bytes();
+    }
+    vertices_per_path_ = static_cast<float>(vertices) / kPilotPaths;
+    bytes_per_path_ = static_cast<double>(bytes) / kPilotPaths;
+  }
+
+  void set_effort(const Effort& effort) {
+    effort_ = effort;
+    light_paths_ = light_path_count(effort.light_paths);
+    counts_.splat = static_cast<float>(light_paths_);
+    const bool connect = light_paths_ > 0 && effort.connections > 0.0f && vertices_per_path_ > 0.0f;
+    counts_.connection = connect ? effort.connections / vertices_per_path_ : 0.0f;
+    const double pass_bytes = connect ? bytes_per_path_ * static_cast<double>(light_paths_) : 0.0;
+    // A wave without light paths would leave its pixels without connections.
+    waves_ = std::min(1 + static_cast<size_t>(1.1 * pass_bytes / settings_.cache_bytes),
+                      std::max<size_t>(1, light_paths_ / kLightBlock));
     mis_ = Mis(settings_.heuristic, counts_);
   }
 
@@ -82,7 +138,7 @@ class Bdpt final : public PassIntegrator {
     }
   }
 
-  void trace_lights(int pass, size_t wave) {
+  void trace_lights(size_t wave) {
     const size_t begin = light_paths_ * wave / waves_, end = light_paths_ * (wave + 1) / waves_;
     wave_paths_ = end - begin;
     const size_t blocks = (wave_paths_ + kLightBlock - 1) / kLightBlock;
@@ -91,6 +147,7 @@ class Bdpt final : public PassIntegrator {
     const std::span<CacheBlock> caches = cache_.start(blocks);
     splats_.resize(std::max(splats_.size(), blocks));
     const std::span splats = std::span(splats_).first(blocks);
+    std::vector<AdaptiveCounts::Moments> moments(meter_ ? blocks : 1);
     context_.pool.parallel_for(blocks, [&](size_t block) {
       context_.cancel.throw_if_cancelled();
       caches[block].clear();
@@ -98,11 +155,11 @@ class Bdpt final : public PassIntegrator {
       Counters counters;
       const size_t block_end = std::min(end, begin + (block + 1) * kLightBlock);
       for (size_t i = begin + block * kLightBlock; i < block_end; ++i) {
-        Sampler sampler(settings_.seed, Stream::Light, 0,
-                        static_cast<uint64_t>(pass) * light_paths_ + i);
+        Sampler sampler(settings_.seed, Stream::Light, 0, first_light_path_ + i);
         trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, counters,
                             [&](const PathVertex& v, Sampler& walk) {
-                              splat(v, walk, margin, splats[block], counters);
+                              splat(v, walk, margin, splats[block], moments[meter_ ? block : 0],
+                                    counters);
                               if (connect) {
                                 cache(v, caches[block]);
                               }
@@ -112,6 +169,7 @@ class Bdpt final : public PassIntegrator {
       add(counters);
     });
     context_.film.add_splats(splats, context_.pool);
+    collect(moments);
     cache_.finish();
     cache_bytes_ = std::max(cache_bytes_, cache_.bytes());
   }
@@ -143,7 +201,7 @@ class Bdpt final : public PassIntegrator {
   }
 
   void splat(const PathVertex& v, Sampler& sampler, float margin, std::vector<Splat>& out,
-             Counters& counters) const {
+             AdaptiveCounts::Moments& moments, Counters& counters) const {
     const auto s =
         connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk);
     if (!s) {
@@ -155,25 +213,44 @@ class Bdpt final : public PassIntegrator {
                  roulette_.at(s->raster), sampler, counters.splats, counters.splat_rays);
     if (usable(value, counters)) {
       out.push_back({s->raster, value});
+      gauge(s->raster, moments).add(value, c.weight);
     }
   }
 
   void trace_camera(int pass, size_t wave) {
     const size_t width = context_.film.rect().width();
+    std::vector<AdaptiveCounts::Moments> moments(meter_ ? context_.film.rect().height() : 1);
     for_each_row([&](size_t row, Counters& counters) {
+      AdaptiveCounts::Gauge previous;
       for (size_t x = 0; x < width; ++x) {
         if (waves_ == 1 || (x + 3 * row) % waves_ == wave) {
-          trace_pixel(row * width + x, pass, counters);
+          previous =
+              trace_pixel(row * width + x, pass, previous, moments[meter_ ? row : 0], counters);
         }
       }
     });
+    collect(moments);
   }
 
-  void trace_pixel(size_t index, int pass, Counters& counters) {
+  // In the order of the blocks, whichever thread filled them.
+  void collect(const std::vector<AdaptiveCounts::Moments>& moments) {
+    for (const AdaptiveCounts::Moments& m : moments) {
+      moments_ += m;
+    }
+  }
+
+  AdaptiveCounts::Gauge gauge(vec2 raster, AdaptiveCounts::Moments& moments) const {
+    return meter_ ? AdaptiveCounts::Gauge(&*meter_, moments, roulette_.value(raster))
+                  : AdaptiveCounts::Gauge();
+  }
+
+  AdaptiveCounts::Gauge trace_pixel(size_t index, int pass, const AdaptiveCounts::Gauge& previous,
+                                    AdaptiveCounts::Moments& moments, Counters& counters) {
     Sampler sampler = camera_sampler(index, pass);
     sampler.start_block(0);
     const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
     const Roulette roulette = roulette_.at(raster);
+    AdaptiveCounts::Gauge meter = gauge(raster, moments);
     Rgb sum(0.0f);
     const auto gather = [&](Rgb value) {
       if (usable(value, counters)) {
@@ -188,23 +265,29 @@ class Bdpt final : public PassIntegrator {
             return;
           }
           const Connection c{found.beta * found.hit.radiance, found.weight, {}, {}, 0};
-          gather(settings_.clamp(weighted(c, 0, found.edges + 1), found.edges));
+          const Rgb value = settings_.clamp(weighted(c, 0, found.edges + 1), found.edges);
+          gather(value);
+          if (found.edges > 1) {  // straight into the light: the same whatever the counts
+            meter.add_single(value, found.weight, found.edges, false);
+          }
         },
         [&](const PathVertex& v, Sampler& walk) {
           if (v.bsdf().connectible()) {
             const Picks picks = pick(walk);
-            gather(next_event(v, roulette, walk, counters));
-            gather(connect(v, picks, roulette, walk, counters));
+            gather(next_event(v, roulette, walk, meter, counters));
+            gather(connect(v, picks, roulette, walk, meter, counters));
           }
         });
     context_.film.add_sample(index, sum, settings_.film_transparent ? alpha : 1.0f);
     if (settings_.check_weights && index % kOracleStride == 0) {
       check(raster, index, pass);
     }
+    meter.pair(previous);
+    return meter;
   }
 
   Rgb next_event(const PathVertex& v, const Roulette& roulette, Sampler& sampler,
-                 Counters& counters) const {
+                 AdaptiveCounts::Gauge& meter, Counters& counters) const {
     if (!context_.scene.light_sampler.illuminates()) {
       return Rgb(0.0f);
     }
@@ -212,8 +295,11 @@ class Bdpt final : public PassIntegrator {
     if (!nee) {
       return Rgb(0.0f);
     }
-    return arriving(weighted(nee->connection, 1, v.edges + 1), nee->connection, v.edges + 1,
-                    roulette, sampler, counters.nee_samples, counters.nee_rays);
+    const Connection& c = nee->connection;
+    const Rgb value = arriving(weighted(c, 1, v.edges + 1), c, v.edges + 1, roulette, sampler,
+                               counters.nee_samples, counters.nee_rays);
+    meter.add_single(value, c.weight, v.edges + 1, true);
+    return value;
   }
 
   // Cached vertices to be joined with a camera vertex.
@@ -229,7 +315,7 @@ class Bdpt final : public PassIntegrator {
     if (counts_.connection == 0.0f || size == 0) {
       return picks;
     }
-    picks.count = static_cast<int>(settings_.connections + sampler.next_1d());
+    picks.count = static_cast<int>(effort_.connections + sampler.next_1d());
     for (int n = 0; n < picks.count; ++n) {
       const size_t i =
           std::min(static_cast<size_t>(sampler.next_1d() * static_cast<double>(size)), size - 1);
@@ -242,11 +328,11 @@ class Bdpt final : public PassIntegrator {
   }
 
   Rgb connect(const PathVertex& v, const Picks& picks, const Roulette& roulette, Sampler& sampler,
-              Counters& counters) const {
+              AdaptiveCounts::Gauge& meter, Counters& counters) const {
     Rgb sum(0.0f);
     // The actual size belongs to the estimate, the expected one (in counts_) to the weights.
-    const float scale = static_cast<float>(cache_.size()) /
-                        (settings_.connections * static_cast<float>(wave_paths_));
+    const float scale =
+        static_cast<float>(cache_.size()) / (effort_.connections * static_cast<float>(wave_paths_));
     for (int n = 0; n < picks.count; ++n) {
       ++counters.connections;
       const auto& [block, vertex] = picks.entries[n];
@@ -260,8 +346,11 @@ class Bdpt final : public PassIntegrator {
                                       sampler, counters);
       if (c) {
         uint64_t with_value = 0;
-        sum += arriving(weighted(*c, l.edges + 1, v.edges + 1), *c, l.edges + v.edges + 1, roulette,
-                        sampler, with_value, counters.connection_rays);
+        const Rgb value =
+            arriving(weighted(*c, l.edges + 1, v.edges + 1), *c, l.edges + v.edges + 1, roulette,
+                     sampler, with_value, counters.connection_rays);
+        meter.add(value, c->weight);
+        sum += value;
       }
     }
     return sum;
@@ -275,10 +364,17 @@ class Bdpt final : public PassIntegrator {
     weight_error_ = std::max(weight_error_, result.max_error);
   }
 
-  size_t light_paths_;
+  Effort effort_;
+  std::unique_ptr<Integrator> path_tracer_;  // for passes without light paths
+  size_t light_paths_ = 0;                   // of a pass
+  uint64_t first_light_path_ = 0;            // of the pass, among all
+  float vertices_per_path_ = 0.0f;           // expected in the cache
+  double bytes_per_path_ = 0.0;
   SampleCounts counts_;
   Mis mis_;
   size_t waves_ = 1, wave_paths_ = 0;
+  std::optional<AdaptiveCounts> meter_;  // while the counts are measured
+  AdaptiveCounts::Moments moments_;
   VertexCache cache_;
   std::vector<std::vector<Splat>> splats_;  // by block of light paths
   size_t cache_bytes_ = 0;                  // the largest so far

@@ -7,6 +7,7 @@
 
 #include "janus/camera/camera.h"
 #include "janus/film/film.h"
+#include "janus/integrator/adaptive_counts.h"
 #include "janus/integrator/clamp.h"
 #include "janus/path/counters.h"
 #include "janus/path/mis.h"
@@ -29,6 +30,8 @@ struct IntegratorSettings {
   Heuristic heuristic = Heuristic::Balance;
   float light_paths = 1.0f;  // per pixel
   float connections = 1.0f;  // per camera vertex, expected
+  // bdpt: the first two passes have these counts, and the others what these passes recommend.
+  bool adaptive_counts = false;
   bool film_transparent = false;
   uint32_t seed = 0;
   size_t cache_bytes = size_t{256} << 20;  // upper bound for the light-vertex cache
@@ -51,8 +54,8 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  // Adds pass `pass` to the film, between begin_pass() and end_pass() by the caller. Depends on
-  // scene, settings and `pass` only. Throws Cancelled.
+  // Adds pass `pass` to the film, between begin_pass() and end_pass() by the caller; passes come in
+  // order, from 0. Depends on scene, settings and the passes so far. Throws Cancelled.
   virtual void render_pass(int pass) = 0;
 
   // Over all passes so far. Not while render_pass runs.
@@ -63,6 +66,9 @@ class Integrator {
 
   // Most bytes that the light-vertex cache has held.
   virtual size_t cache_bytes() const { return 0; }
+
+  // What the next pass will do, per pixel and camera vertex.
+  virtual Effort effort() const { return {0.0f, 0.0f}; }
 };
 
 std::unique_ptr<Integrator> make_path_tracer(const RenderContext& context,

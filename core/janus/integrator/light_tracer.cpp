@@ -24,7 +24,7 @@ class LightTracer final : public PassIntegrator {
   const Mis mis_{Heuristic::Balance, SampleCounts{}};
 
   void trace_lights(int pass) {
-    const size_t count = light_path_count();
+    const size_t count = light_path_count(settings_.light_paths);
     const float margin = context_.film.filter().radius();
     std::vector<std::vector<Splat>> splats((count + kLightBlock - 1) / kLightBlock);
     context_.pool.parallel_for(splats.size(), [&](size_t block) {

@@ -26,9 +26,9 @@ class PassIntegrator : public Integrator {
     counters_ += counters;
   }
 
-  size_t light_path_count() const {
+  size_t light_path_count(float per_pixel) const {
     return context_.scene.light_sampler.emits()
-               ? static_cast<size_t>(settings_.light_paths * context_.film.rect().pixels() + 0.5)
+               ? static_cast<size_t>(per_pixel * context_.film.rect().pixels() + 0.5)
                : 0;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 
 namespace janus {
 
@@ -17,23 +18,23 @@ struct Counters {
   uint64_t light_vertices = 0;           // cached
   uint64_t dropped = 0;                  // contributions not finite
 
-  Counters& operator+=(const Counters& o) {
-    camera_paths += o.camera_paths;
-    light_paths += o.light_paths;
-    camera_rays += o.camera_rays;
-    light_rays += o.light_rays;
-    nee_rays += o.nee_rays;
-    connection_rays += o.connection_rays;
-    splat_rays += o.splat_rays;
-    light_vertices += o.light_vertices;
-    connections += o.connections;
-    connections_facing += o.connections_facing;
-    connections_evaluated += o.connections_evaluated;
-    nee_samples += o.nee_samples;
-    splats += o.splats;
-    dropped += o.dropped;
-    return *this;
-  }
+  Counters& operator+=(const Counters& o) { return combine(o, 1); }
+  Counters& operator-=(const Counters& o) { return combine(o, -1); }
+
+ private:
+  Counters& combine(const Counters& o, int sign);
 };
+
+inline Counters& Counters::combine(const Counters& o, int sign) {
+  for (const auto field :
+       {&Counters::camera_paths, &Counters::light_paths, &Counters::camera_rays,
+        &Counters::light_rays, &Counters::nee_rays, &Counters::connection_rays,
+        &Counters::splat_rays, &Counters::connections, &Counters::connections_facing,
+        &Counters::connections_evaluated, &Counters::nee_samples, &Counters::splats,
+        &Counters::light_vertices, &Counters::dropped}) {
+    this->*field += static_cast<uint64_t>(sign) * o.*field;
+  }
+  return *this;
+}
 
 }  // namespace janus

@@ -77,6 +77,7 @@ void RenderSession::run() {
   integrator_settings.heuristic = settings_.heuristic;
   integrator_settings.light_paths = settings_.light_paths;
   integrator_settings.connections = settings_.connections;
+  integrator_settings.adaptive_counts = settings_.adaptive_counts;
   integrator_settings.film_transparent = settings_.film_transparent;
   integrator_settings.seed = settings_.seed;
   integrator_settings.cache_bytes = settings_.cache_bytes;
@@ -96,6 +97,7 @@ void RenderSession::run() {
     statistics_.counters = integrator->counters();
     statistics_.weight_error = integrator->weight_error();
     statistics_.cache_bytes = integrator->cache_bytes();
+    statistics_.effort = integrator->effort();
     // Stop where the next whole pass would overshoot the limit by more than half of itself.
     const double per_pass = statistics_.seconds / (pass + 1);
     if (settings_.seconds > 0.0 && statistics_.seconds + 0.5 * per_pass > settings_.seconds) {

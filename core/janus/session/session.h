@@ -26,6 +26,7 @@ struct Statistics {
   Counters counters;
   double weight_error = 0.0;  // with check_weights
   size_t cache_bytes = 0;     // most that the light-vertex cache has held
+  Effort effort{0.0f, 0.0f};  // of the passes to come
 };
 
 // One render on threads of its own. All methods may be called from any thread; none of them waits

@@ -27,9 +27,10 @@ struct RenderSettings {
   float clamp_direct = 0.0f, clamp_indirect = 0.0f;
   IntegratorType integrator = IntegratorType::Bdpt;
   FilterType filter = FilterType::BlackmanHarris;
-  float filter_width = 1.5f;  // pixels
-  float light_paths = 1.0f;   // per pixel
-  float connections = 1.0f;   // per camera vertex
+  float filter_width = 1.5f;     // pixels
+  float light_paths = 1.0f;      // per pixel
+  float connections = 1.0f;      // per camera vertex
+  bool adaptive_counts = false;  // bdpt: IntegratorSettings::adaptive_counts
   Heuristic heuristic = Heuristic::Balance;
   bool film_transparent = false;
   bool roulette = true;                // Russian roulette on walks and on contributions

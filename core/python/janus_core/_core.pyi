@@ -58,6 +58,7 @@ class _Stats(TypedDict):
     light_vertices: int
     light_cache_bytes: int
     dropped: int
+    effort: dict[Literal["light_paths", "connections"], float]
     weight_error: float
 
 @final
@@ -241,6 +242,7 @@ class RenderSettings:
         filter_width: float = 1.5,
         light_paths: float = 1.0,
         connections: float = 1.0,
+        adaptive_counts: bool = False,
         heuristic: Literal["BALANCE", "POWER"] = "BALANCE",
         film_transparent: bool = False,
         roulette: bool = True,
@@ -306,6 +308,9 @@ class RenderSettings:
     @property
     def connections(self) -> float:
         """Connections per vertex of a camera path."""
+    @property
+    def adaptive_counts(self) -> bool:
+        """Bidirectional: starts with the two counts, then takes what is most efficient."""
     @property
     def heuristic(self) -> Literal["BALANCE", "POWER"]:
         """How the techniques are weighted."""
