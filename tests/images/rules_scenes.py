@@ -43,7 +43,9 @@ def room(scene) -> None:
         "Glass", "BsdfGlass", "GGX", Color=(0.9, 0.95, 1.0, 1.0), Roughness=0.5, IOR=1.4
     )
     leaf = kit.shader("Leaf", "BsdfTranslucent", Color=(0.6, 0.9, 0.5, 1.0))
-    kit.quad(scene, "Floor", [(-1.5, -1.5, 0), (1.5, -1.5, 0), (1.5, 1.5, 0), (-1.5, 1.5, 0)], white)
+    kit.quad(
+        scene, "Floor", [(-1.5, -1.5, 0), (1.5, -1.5, 0), (1.5, 1.5, 0), (-1.5, 1.5, 0)], white
+    )
     kit.quad(
         scene, "Back", [(-1.5, 1.5, 0), (1.5, 1.5, 0), (1.5, 1.5, 2.4), (-1.5, 1.5, 2.4)], white
     )
