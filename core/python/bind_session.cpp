@@ -30,10 +30,12 @@ constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Wa
 using Crop = std::optional<std::array<int, 4>>;
 
 RenderSettings make_settings(int width, int height, const Crop& crop, int samples, double seconds,
-                             uint32_t seed, int threads, int max_bounces,
-                             int transparent_max_bounces, const std::string& integrator,
-                             const std::string& filter, float filter_width, float light_paths,
-                             float connections, bool adaptive_counts, const std::string& heuristic,
+                             uint32_t seed, int threads, int max_bounces, int max_diffuse_bounces,
+                             int max_glossy_bounces, int max_transmission_bounces,
+                             int transparent_max_bounces, float clamp_direct, float clamp_indirect,
+                             const std::string& integrator, const std::string& filter,
+                             float filter_width, float light_paths, float connections,
+                             bool adaptive_counts, const std::string& heuristic,
                              bool film_transparent, bool roulette, bool check_weights) {
   RenderSettings s;
   s.width = width;
@@ -46,7 +48,12 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
   s.seed = seed;
   s.threads = threads;
   s.max_bounces = max_bounces;
+  s.max_diffuse_bounces = max_diffuse_bounces;
+  s.max_glossy_bounces = max_glossy_bounces;
+  s.max_transmission_bounces = max_transmission_bounces;
   s.transparent_max_bounces = transparent_max_bounces;
+  s.clamp_direct = clamp_direct;
+  s.clamp_indirect = clamp_indirect;
   s.integrator = from_name(kIntegrators, integrator, "integrator");
   s.filter = from_name(kFilters, filter, "filter");
   s.filter_width = filter_width;
@@ -72,7 +79,12 @@ py::dict to_dict(const RenderSettings& s) {
   d["seed"] = s.seed;
   d["threads"] = s.threads;
   d["max_bounces"] = s.max_bounces;
+  d["max_diffuse_bounces"] = s.max_diffuse_bounces;
+  d["max_glossy_bounces"] = s.max_glossy_bounces;
+  d["max_transmission_bounces"] = s.max_transmission_bounces;
   d["transparent_max_bounces"] = s.transparent_max_bounces;
+  d["clamp_direct"] = s.clamp_direct;
+  d["clamp_indirect"] = s.clamp_indirect;
   d["integrator"] = to_name(kIntegrators, s.integrator);
   d["filter"] = to_name(kFilters, s.filter);
   d["filter_width"] = s.filter_width;
@@ -93,24 +105,30 @@ void bind_settings(py::module_& m) {
       "What to render of a scene: immutable, checked when made (SceneError names the setting). "
       "crop: (x0, y0, x1, y1) in pixels of the full frame from the bottom left; seconds: time "
       "limit, 0 for none; threads: 0 for all; max_bounces: as in Cycles, 0 is direct light; "
+      "max_diffuse_bounces, max_glossy_bounces, max_transmission_bounces: of them by kind; "
       "transparent_max_bounces: surfaces passed by alpha or transparency; "
+      "clamp_direct, clamp_indirect: the most that a contribution adds to a sample, 0 for no "
+      "limit; "
       "integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
       "pixels; light_paths per pixel; connections per camera vertex; "
       "adaptive_counts: bdpt starts with these two and then takes what is most efficient for the "
       "scene; heuristic: BALANCE or POWER; "
       "roulette: False traces every path and every shadow ray to its end (slow); "
       "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
-  settings.def(py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
-               "crop"_a = py::none(), "samples"_a = d.samples, "seconds"_a = d.seconds,
-               "seed"_a = d.seed, "threads"_a = d.threads, "max_bounces"_a = d.max_bounces,
-               "transparent_max_bounces"_a = d.transparent_max_bounces,
-               "integrator"_a = to_name(kIntegrators, d.integrator),
-               "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
-               "light_paths"_a = d.light_paths, "connections"_a = d.connections,
-               "adaptive_counts"_a = d.adaptive_counts,
-               "heuristic"_a = to_name(kHeuristics, d.heuristic),
-               "film_transparent"_a = d.film_transparent, "roulette"_a = d.roulette,
-               "check_weights"_a = d.check_weights);
+  settings.def(
+      py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
+      "crop"_a = py::none(), "samples"_a = d.samples, "seconds"_a = d.seconds, "seed"_a = d.seed,
+      "threads"_a = d.threads, "max_bounces"_a = d.max_bounces,
+      "max_diffuse_bounces"_a = d.max_diffuse_bounces,
+      "max_glossy_bounces"_a = d.max_glossy_bounces,
+      "max_transmission_bounces"_a = d.max_transmission_bounces,
+      "transparent_max_bounces"_a = d.transparent_max_bounces, "clamp_direct"_a = d.clamp_direct,
+      "clamp_indirect"_a = d.clamp_indirect, "integrator"_a = to_name(kIntegrators, d.integrator),
+      "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
+      "light_paths"_a = d.light_paths, "connections"_a = d.connections,
+      "adaptive_counts"_a = d.adaptive_counts, "heuristic"_a = to_name(kHeuristics, d.heuristic),
+      "film_transparent"_a = d.film_transparent, "roulette"_a = d.roulette,
+      "check_weights"_a = d.check_weights);
   settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
   settings.def("__repr__", [](const RenderSettings& s) {
     return py::str("RenderSettings(**{!r})").format(to_dict(s));

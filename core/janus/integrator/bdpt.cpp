@@ -182,9 +182,10 @@ class Bdpt final : public PassIntegrator {
     return c.value * c.weight.value;
   }
 
-  // What arrives of `value` over the shadow ray of `c`; `samples` and `rays` are counted.
-  Rgb arriving(Rgb value, const Connection& c, const Roulette& roulette, Sampler& sampler,
-               uint64_t& samples, uint64_t& rays) const {
+  // What arrives of `value` over the shadow ray of `c`, which completes a path of `edges` edges;
+  // `samples` and `rays` are counted.
+  Rgb arriving(Rgb value, const Connection& c, int edges, const Roulette& roulette,
+               Sampler& sampler, uint64_t& samples, uint64_t& rays) const {
     if (is_black(value)) {
       return value;
     }
@@ -195,18 +196,20 @@ class Bdpt final : public PassIntegrator {
       return Rgb(0.0f);
     }
     ++rays;
-    return value * scale * context_.scene.transmittance(c.from, c.to, crossings);
+    const Rgb arrived = value * context_.scene.transmittance(c.from, c.to, crossings);
+    return settings_.clamp(arrived, edges) * scale;
   }
 
   void splat(const PathVertex& v, Sampler& sampler, float margin, std::vector<Splat>& out,
              AdaptiveCounts::Moments& moments, Counters& counters) const {
-    const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_);
+    const auto s =
+        connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk);
     if (!s) {
       return;
     }
     const Connection& c = s->connection;
     const Rgb value =
-        arriving(weighted(c, v.edges + 1, 1) / static_cast<float>(light_paths_), c,
+        arriving(weighted(c, v.edges + 1, 1) / static_cast<float>(light_paths_), c, v.edges + 1,
                  roulette_.at(s->raster), sampler, counters.splats, counters.splat_rays);
     if (usable(value, counters)) {
       out.push_back({s->raster, value});
@@ -262,7 +265,7 @@ class Bdpt final : public PassIntegrator {
             return;
           }
           const Connection c{found.beta * found.hit.radiance, found.weight, {}, {}, 0};
-          const Rgb value = weighted(c, 0, found.edges + 1);
+          const Rgb value = settings_.clamp(weighted(c, 0, found.edges + 1), found.edges);
           gather(value);
           if (found.edges > 1) {  // straight into the light: the same whatever the counts
             meter.add_single(value, found.weight, found.edges, false);
@@ -293,7 +296,7 @@ class Bdpt final : public PassIntegrator {
       return Rgb(0.0f);
     }
     const Connection& c = nee->connection;
-    const Rgb value = arriving(weighted(c, 1, v.edges + 1), c, roulette, sampler,
+    const Rgb value = arriving(weighted(c, 1, v.edges + 1), c, v.edges + 1, roulette, sampler,
                                counters.nee_samples, counters.nee_rays);
     meter.add_single(value, c.weight, v.edges + 1, true);
     return value;
@@ -339,11 +342,13 @@ class Bdpt final : public PassIntegrator {
       }
       const BsdfView light_bsdf = block->bsdf(l);
       __builtin_prefetch(light_bsdf.lobes().data());
-      const auto c = connect_vertices(l, light_bsdf, v, mis_, scale, roulette, sampler, counters);
+      const auto c = connect_vertices(l, light_bsdf, v, mis_, settings_.walk, scale, roulette,
+                                      sampler, counters);
       if (c) {
         uint64_t with_value = 0;
-        const Rgb value = arriving(weighted(*c, l.edges + 1, v.edges + 1), *c, roulette, sampler,
-                                   with_value, counters.connection_rays);
+        const Rgb value =
+            arriving(weighted(*c, l.edges + 1, v.edges + 1), *c, l.edges + v.edges + 1, roulette,
+                     sampler, with_value, counters.connection_rays);
         meter.add(value, c->weight);
         sum += value;
       }

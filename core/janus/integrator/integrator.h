@@ -8,6 +8,7 @@
 #include "janus/camera/camera.h"
 #include "janus/film/film.h"
 #include "janus/integrator/adaptive_counts.h"
+#include "janus/integrator/clamp.h"
 #include "janus/path/counters.h"
 #include "janus/path/mis.h"
 #include "janus/path/subpath.h"
@@ -25,6 +26,7 @@ struct Technique {
 
 struct IntegratorSettings {
   WalkSettings walk;
+  Clamp clamp;
   Heuristic heuristic = Heuristic::Balance;
   float light_paths = 1.0f;  // per pixel
   float connections = 1.0f;  // per camera vertex, expected

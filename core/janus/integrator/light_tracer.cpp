@@ -45,7 +45,8 @@ class LightTracer final : public PassIntegrator {
 
   void splat(const PathVertex& v, Sampler& sampler, float margin, size_t count,
              std::vector<Splat>& out, Counters& counters) const {
-    const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_);
+    const auto s =
+        connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk);
     const int crossings = settings_.walk.max_crossings - v.crossings;
     if (!s || crossings < 0 || !usable(s->connection.value, counters)) {
       return;
@@ -54,7 +55,7 @@ class LightTracer final : public PassIntegrator {
     const Rgb value = s->connection.value *
                       context_.scene.transmittance(s->connection.from, s->connection.to, crossings);
     if (!is_black(value)) {
-      out.push_back({s->raster, value / static_cast<float>(count)});
+      out.push_back({s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1)});
     }
   }
 
@@ -72,7 +73,7 @@ class LightTracer final : public PassIntegrator {
             context_.scene, context_.camera, raster, mis_, one_edge, sampler, counters,
             [&](const LightFound& found) {
               if (!(settings_.film_transparent && context_.scene.lights[found.light]->infinite())) {
-                sum += found.beta * found.hit.radiance;
+                sum += settings_.clamp(found.beta * found.hit.radiance, 1);
               }
             },
             [](const PathVertex&, Sampler&) {});

@@ -2,6 +2,8 @@
 //
 // Unidirectional path tracing with next event estimation. Written without path/ on purpose (only
 // roulette is shared): a second opinion on what bdpt computes.
+#include <array>
+
 #include "janus/integrator/pass.h"
 
 namespace janus {
@@ -46,6 +48,7 @@ class PathTracer final : public PassIntegrator {
     bool delta = true;  // no next event estimation has looked for the light ahead
     int edges = 1, crossings = 0;
     Rgb beta = Rgb(1.0f);
+    std::array<int, 3> bounces{};  // diffuse, glossy, transmission
   };
 
   // Light of source `index` found on the way.
@@ -60,7 +63,8 @@ class PathTracer final : public PassIntegrator {
         walk.delta
             ? 0.0f
             : lights.pmf_illumination(walk.previous, index, hit.primitive) * hit.pdf_illumination;
-    return walk.beta * hit.radiance * (walk.delta ? 1.0f : weight(walk.pdf_solid, pdf_nee));
+    const float w = walk.delta ? 1.0f : weight(walk.pdf_solid, pdf_nee);
+    return settings_.clamp(walk.beta * hit.radiance * w, walk.edges);
   }
 
   // The lamps on the present segment, which ends at `t_end`, or nowhere.
@@ -118,13 +122,14 @@ class PathTracer final : public PassIntegrator {
         walk.beta /= 1.0f - pass;
       }
 
-      if (walk.edges + 1 > settings_.walk.max_edges) {
+      if (walk.edges + 1 > settings_.walk.max_edges || beyond_caps(walk.bounces)) {
         return sum;
       }
       const BsdfView bsdf = shading.bsdf.view(hit->ng);
       sampler.start_block(walk.edges);
       if (bsdf.connectible() && scene.light_sampler.illuminates()) {
-        sum += walk.beta * direct(*hit, bsdf, wo, walk.crossings, sampler, counters);
+        sum += settings_.clamp(
+            walk.beta * direct(*hit, bsdf, wo, walk.crossings, sampler, counters), walk.edges + 1);
       }
 
       const float u_lobe = sampler.next_1d();
@@ -138,12 +143,33 @@ class PathTracer final : public PassIntegrator {
       if (is_black(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
         return sum;
       }
+      std::array<int, 3> bounces = walk.bounces;
+      if (settings_.walk.counts()) {
+        ++bounces[bounce_kind(*sample, sampler)];
+      }
       const Ray next{offset_origin(hit->p, hit->ng, hit->offset, sample->direction),
                      sample->direction};
       walk =
-          Walk{next,          receiver(*hit, bsdf, wo), next.origin,    0.0f,    sample->pdf_solid,
-               sample->delta, walk.edges + 1,           walk.crossings, beta / q};
+          Walk{next,          receiver(*hit, bsdf, wo), next.origin,    0.0f,     sample->pdf_solid,
+               sample->delta, walk.edges + 1,           walk.crossings, beta / q, bounces};
     }
+  }
+
+  // 0: diffuse, 1: glossy, 2: transmission. Lobes that reflect into one direction share it.
+  static int bounce_kind(const BsdfSample& sample, Sampler& sampler) {
+    if (sample.transmitted) {
+      return 2;
+    }
+    return sample.share_diffuse > 0.0f && sampler.next_1d() < sample.share_diffuse ? 0 : 1;
+  }
+
+  bool beyond_caps(const std::array<int, 3>& bounces) const {
+    for (int i = 0; i < 3; ++i) {
+      if (bounces[i] > settings_.walk.caps[i]) {
+        return true;
+      }
+    }
+    return false;
   }
 
   Rgb direct(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, int crossings,

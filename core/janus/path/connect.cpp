@@ -14,6 +14,7 @@ LightVertex::LightVertex(const PathVertex& v)
       first_lobe(0),
       edges(static_cast<uint16_t>(v.edges)),
       crossings(static_cast<uint16_t>(v.crossings)),
+      bounces(v.bounces),
       lobe_count(0),
       transmits(v.bsdf().transmits()) {}
 
@@ -51,7 +52,8 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
 }
 
 std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_bsdf,
-                                           const PathVertex& c, const Mis& mis, float scale,
+                                           const PathVertex& c, const Mis& mis,
+                                           const PathRules& rules, float scale,
                                            const Roulette& roulette, Sampler& sampler,
                                            Counters& counters) {
   std::optional<Connection> joined;
@@ -83,6 +85,17 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   if (is_black(at_light.f)) {
     return joined;
   }
+  if (rules.caps_bind(l.edges + c.edges + 1)) {
+    const BounceCounts bounces = l.bounces + c.bounces;
+    const auto camera_label = LabelShares::joined(at_camera, cos_camera * dot(wo, c.hit.ng) < 0.0f);
+    const auto light_label = LabelShares::joined(at_light, cos_light * dot(l.wi, l.ng) < 0.0f);
+    const float share = l.edges == 1 ? rules.caps.share(bounces, camera_label)
+                                     : rules.caps.share(bounces, camera_label, light_label);
+    if (share == 0.0f) {
+      return joined;
+    }
+    scale *= share;
+  }
   ++counters.connections_evaluated;
   const float pdf_area_light = at_camera.pdf_radiance * std::abs(cos_light) / d2;
   const float pdf_area_camera = at_light.pdf_importance * std::abs(cos_camera) / d2;
@@ -97,7 +110,7 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
 }
 
 std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera, vec2 u_lens,
-                                             float margin, const Mis& mis) {
+                                             float margin, const Mis& mis, const PathRules& rules) {
   std::optional<CameraSplat> splat;
   const auto to_camera = camera.connect(v.hit.p, u_lens, margin);
   if (!to_camera) {
@@ -109,10 +122,18 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
   if (is_black(e.f)) {
     return splat;
   }
+  float share = 1.0f;
+  if (rules.caps_bind(v.edges + 1) && v.edges > 1) {
+    const bool transmitted = dot(wo, v.hit.ng) * dot(v.back, v.hit.ng) < 0.0f;
+    share = rules.caps.share(v.bounces, LabelShares::joined(e, transmitted));
+    if (share == 0.0f) {
+      return splat;
+    }
+  }
   const float importance = to_camera->importance();
   splat.emplace();
   Connection& joined = splat->connection;
-  joined.value = v.beta * e.f * (importance / to_camera->pmf);
+  joined.value = v.beta * e.f * (share * importance / to_camera->pmf);
   joined.weight = mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)), e.pdf_radiance);
   joined.from = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo);
   joined.to = to_camera->target;

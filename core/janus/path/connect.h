@@ -3,7 +3,7 @@
 // The deterministic ends of the techniques: next event estimation (s=1), vertex connections
 // (s,t >= 2) and the connection to the camera (t=1). Each returns its contribution for one sample
 // of count 1, with `weight` apart so that a technique can also be seen alone; visibility is left
-// to the caller's ray.
+// to the caller's ray. The rules of path/rules.h are in the value.
 #pragma once
 
 #include <optional>
@@ -30,6 +30,7 @@ struct LightVertex {
   float bound;  // max |beta| times the peak of the BSDF
   uint32_t first_lobe;
   uint16_t edges, crossings;
+  BounceCounts bounces;
   uint8_t lobe_count;
   bool transmits;
 
@@ -49,7 +50,8 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
 // contribution before the BSDFs are evaluated, and `value` makes up for it.
 std::optional<Connection> connect_vertices(const LightVertex& light_vertex, BsdfView light_bsdf,
                                            const PathVertex& camera_vertex, const Mis& mis,
-                                           float scale, const Roulette& roulette, Sampler& sampler,
+                                           const PathRules& rules, float scale,
+                                           const Roulette& roulette, Sampler& sampler,
                                            Counters& counters);
 
 struct CameraSplat {
@@ -58,6 +60,7 @@ struct CameraSplat {
   CameraEnd end;
 };
 std::optional<CameraSplat> connect_to_camera(const PathVertex& light_vertex, const Camera& camera,
-                                             vec2 u_lens, float margin, const Mis& mis);
+                                             vec2 u_lens, float margin, const Mis& mis,
+                                             const PathRules& rules);
 
 }  // namespace janus

@@ -169,7 +169,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
             return;
           }
           const vec2 u_lens = walk_sampler.next_2d();
-          if (const auto splat = connect_to_camera(v, camera, u_lens, kInfinity, mis)) {
+          if (const auto splat = connect_to_camera(v, camera, u_lens, kInfinity, mis, settings)) {
             FullPath path = join(light, v.edges, {}, 0);
             set_light(path, light[0].light_end);
             path.camera = splat->end;
@@ -202,7 +202,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
     }
     for (int i = 1; i <= static_cast<int>(light.size()) && counts.connection > 0.0f; ++i) {
       const PathVertex& l = light[i - 1];
-      if (const auto connection = connect_vertices(LightVertex(l), l.bsdf(), v, mis, 1.0f,
+      if (const auto connection = connect_vertices(LightVertex(l), l.bsdf(), v, mis, settings, 1.0f,
                                                    Roulette(), walk_sampler, counters)) {
         FullPath path = join(light, i, camera_vertices, j);
         set_light(path, light[0].light_end);

@@ -9,9 +9,7 @@
 
 namespace janus {
 
-struct WalkSettings {
-  int max_edges = 14;     // edges of a whole path; Cycles' max_bounces + 2
-  int max_crossings = 8;  // of transparent surfaces on a whole path
+struct WalkSettings : PathRules {
   bool roulette = true;
 };
 
@@ -33,12 +31,13 @@ struct WalkStep {
   ClassSums behind;
   Rgb beta;
   float cos_previous;
+  RayType label = RayType::Diffuse;  // if the rules count
 };
 
 // Scatters at `v`, applies roulette and writes `step`. `start`: throughput 1 of this walk;
 // `eta_scale`: product of the refractions so far. False when the walk ends.
 inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, TransportMode mode,
-                    bool roulette, float start, float& eta_scale, WalkStep& step) {
+                    const WalkSettings& settings, float start, float& eta_scale, WalkStep& step) {
   const float u_lobe = sampler.next_1d();
   const vec2 u = sampler.next_2d();
   const auto sample = v.bsdf().sample(v.back, u_lobe, u, mode);
@@ -47,7 +46,7 @@ inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, Trans
   }
   Rgb beta = v.beta * sample->weight;
   eta_scale *= sample->eta_scale;
-  const float q = roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
+  const float q = settings.roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
   if (is_black(beta) || !is_finite(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
     return false;
   }
@@ -59,6 +58,9 @@ inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, Trans
   step.behind = mis.behind(v.mis, sample->delta, sample->pdf_reverse);
   step.beta = beta / q;
   step.cos_previous = std::abs(dot(d, v.hit.ng));
+  if (settings.counts()) {
+    step.label = LabelShares::sampled(*sample).draw(sampler);
+  }
   return true;
 }
 
@@ -117,9 +119,15 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
       return;
     }
     sampler.start_block(v.edges);
-    if (!scatter(v, mis, sampler, TransportMode::Importance, settings.roulette, start, eta_scale,
-                 step)) {
+    if (!scatter(v, mis, sampler, TransportMode::Importance, settings, start, eta_scale, step)) {
       return;
+    }
+    // z_1 is next to the light, it is no bounce.
+    if (settings.counts() && v.edges > 1) {
+      v.bounces = v.bounces.with(step.label);
+      if (!settings.caps.allow(v.bounces)) {
+        return;
+      }
     }
     v.beta = step.beta;
     const vec3 previous = v.hit.p;
@@ -204,7 +212,9 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     const float cos_1 = std::abs(dot(ray.direction, v.hit.ng));
     const float pdf_area =
         v.edges == 1 ? camera_density(start.density, cos_1, d2) : step.left.pdf_solid * cos_1 / d2;
-    if (v.edges + 1 > settings.max_edges || !usable_density(pdf_area)) {
+    // The last bounce is one only if the path goes on from here.
+    if (v.edges + 1 > settings.max_edges || !settings.caps.allow(v.bounces) ||
+        !usable_density(pdf_area)) {
       return alpha;
     }
     v.mis = v.edges == 1
@@ -214,9 +224,11 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     sampler.start_block(v.edges);
     on_vertex(v, sampler);
 
-    if (!scatter(v, mis, sampler, TransportMode::Radiance, settings.roulette, 1.0f, eta_scale,
-                 step)) {
+    if (!scatter(v, mis, sampler, TransportMode::Radiance, settings, 1.0f, eta_scale, step)) {
       return alpha;
+    }
+    if (settings.counts()) {
+      v.bounces = v.bounces.with(step.label);
     }
     previous = receiver(v.hit, v.bsdf(), v.back);
     v.beta = step.beta;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "janus/path/mis.h"
+#include "janus/path/rules.h"
 #include "janus/render/scene.h"
 
 namespace janus {
@@ -38,6 +39,7 @@ struct PathVertex {
   MisState mis;
   int edges;             // from the start of the subpath
   int crossings;         // of transparent surfaces since the start of the subpath
+  BounceCounts bounces;  // at the vertices before this one, if PathRules::counts()
   Departure previous;    // how the walk left the vertex before (edges > 1)
   LightEnd light_end;    // light subpaths: their start
   CameraEnd camera_end;  // camera subpaths: theirs

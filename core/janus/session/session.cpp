@@ -67,6 +67,10 @@ void RenderSession::run() {
   // Cycles counts bounces between the first surface and the light: 0 leaves camera, surface, light.
   integrator_settings.walk.max_edges = settings_.max_bounces + 2;
   integrator_settings.walk.max_crossings = settings_.transparent_max_bounces;
+  integrator_settings.walk.caps =
+      BounceCaps(settings_.max_diffuse_bounces, settings_.max_glossy_bounces,
+                 settings_.max_transmission_bounces);
+  integrator_settings.clamp = Clamp(settings_.clamp_direct, settings_.clamp_indirect);
   integrator_settings.walk.roulette = settings_.roulette;
   integrator_settings.contribution_roulette = settings_.roulette;
   integrator_settings.only = settings_.technique;

@@ -2,6 +2,7 @@
 #include "janus/session/settings.h"
 
 #include <cmath>
+#include <utility>
 
 #include "janus/util/error.h"
 
@@ -24,9 +25,17 @@ void RenderSettings::validate() const {
   require(samples >= 1, "samples", "must be at least 1");
   require(std::isfinite(seconds) && seconds >= 0.0, "seconds", "must be finite and at least 0");
   require(threads >= 0 && threads <= 1024, "threads", "must be from 0 to 1024");
-  require(max_bounces >= 0 && max_bounces <= 1024, "max_bounces", "must be from 0 to 1024");
-  require(transparent_max_bounces >= 0 && transparent_max_bounces <= 1024,
-          "transparent_max_bounces", "must be from 0 to 1024");
+  for (const auto& [value, name] : {std::pair(max_bounces, "max_bounces"),
+                                    {max_diffuse_bounces, "max_diffuse_bounces"},
+                                    {max_glossy_bounces, "max_glossy_bounces"},
+                                    {max_transmission_bounces, "max_transmission_bounces"},
+                                    {transparent_max_bounces, "transparent_max_bounces"}}) {
+    require(value >= 0 && value <= 1024, name, "must be from 0 to 1024");
+  }
+  require(std::isfinite(clamp_direct) && clamp_direct >= 0.0f, "clamp_direct",
+          "must be finite and at least 0");
+  require(std::isfinite(clamp_indirect) && clamp_indirect >= 0.0f, "clamp_indirect",
+          "must be finite and at least 0");
   require(std::isfinite(filter_width) && filter_width > 0.0f && filter_width <= 100.0f,
           "filter_width", "must be above 0 and at most 100 pixels");
   require(std::isfinite(light_paths) && light_paths >= 0.0f && light_paths <= 64.0f, "light_paths",

@@ -17,9 +17,14 @@ struct RenderSettings {
   int samples = 64;               // passes
   double seconds = 0.0;           // time limit; 0: none. The first pass always completes
   uint32_t seed = 0;
-  int threads = 0;                  // 0: one per hardware thread
-  int max_bounces = 12;             // as in Cycles: 0 is direct light only
+  int threads = 0;                 // 0: one per hardware thread
+  int max_bounces = 12;            // as in Cycles: 0 is direct light only
+  int max_diffuse_bounces = 1024;  // of them by kind, with no limit of their own
+  int max_glossy_bounces = 1024;
+  int max_transmission_bounces = 1024;
   int transparent_max_bounces = 8;  // surfaces that a path passes by alpha or transparency
+  // Most that a contribution of direct or of indirect light adds to a sample; 0: no limit.
+  float clamp_direct = 0.0f, clamp_indirect = 0.0f;
   IntegratorType integrator = IntegratorType::Bdpt;
   FilterType filter = FilterType::BlackmanHarris;
   float filter_width = 1.5f;     // pixels

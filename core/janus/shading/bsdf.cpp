@@ -94,11 +94,16 @@ BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
     }
     const LobeEval e = evaluate_lobe(lobe, ng_, d);
     sum.f += e.f;
+    if (!is_ggx(lobe.type)) {
+      sum.diffuse += average(e.f);
+    }
     sum.pdf_radiance += pmf(lobe, grazing_o) * e.pdf_radiance;
     sum.pdf_importance += pmf(lobe, grazing_i) * e.pdf_importance;
   }
   if (mode == TransportMode::Importance) {
-    sum.f *= std::abs(d.wo_ng / d.wi_ng);
+    const float adjoint = std::abs(d.wo_ng / d.wi_ng);
+    sum.f *= adjoint;
+    sum.diffuse *= adjoint;
   }
   return sum;
 }
@@ -151,6 +156,8 @@ std::optional<BsdfSample> BsdfView::sample_direction(const Lobe& lobe, vec3 from
   sample->pdf_solid = pdf;
   sample->pdf_reverse = radiance ? e.pdf_importance : e.pdf_radiance;
   sample->delta = false;
+  sample->transmitted = dot(from, ng_) * dot(*to, ng_) < 0.0f;
+  sample->share_diffuse = e.diffuse > 0.0f ? e.diffuse / average(e.f) : 0.0f;
   return sample;
 }
 
@@ -185,7 +192,8 @@ std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen,
                     radiance ? pdf_radiance : pdf_importance,
                     radiance ? pdf_importance : pdf_radiance,
                     true,
-                    radiance ? 1.0f : eta2};
+                    radiance ? 1.0f : eta2,
+                    event->transmitted};
 }
 
 }  // namespace janus

@@ -231,7 +231,12 @@ class RenderSettings:
         seed: int = 0,
         threads: int = 0,
         max_bounces: int = 12,
+        max_diffuse_bounces: int = 1024,
+        max_glossy_bounces: int = 1024,
+        max_transmission_bounces: int = 1024,
         transparent_max_bounces: int = 8,
+        clamp_direct: float = 0.0,
+        clamp_indirect: float = 0.0,
         integrator: Literal["bdpt", "pt", "lt"] = "bdpt",
         filter: Literal["BLACKMAN_HARRIS", "GAUSSIAN", "BOX"] = "BLACKMAN_HARRIS",
         filter_width: float = 1.5,
@@ -271,8 +276,23 @@ class RenderSettings:
     def max_bounces(self) -> int:
         """As in Cycles: 0 is direct light only."""
     @property
+    def max_diffuse_bounces(self) -> int:
+        """Of them by diffuse reflection, as Cycles counts; the one next to the light is none."""
+    @property
+    def max_glossy_bounces(self) -> int:
+        """By glossy reflection, mirrors included."""
+    @property
+    def max_transmission_bounces(self) -> int:
+        """By transmission: glass, refraction, translucency."""
+    @property
     def transparent_max_bounces(self) -> int:
         """How many surfaces a path may pass by alpha or transparency."""
+    @property
+    def clamp_direct(self) -> float:
+        """The most that a contribution of direct light adds to a sample; 0: no limit."""
+    @property
+    def clamp_indirect(self) -> float:
+        """Likewise of indirect light. A bias: caustics lose light first."""
     @property
     def integrator(self) -> Literal["bdpt", "pt", "lt"]:
         """Bidirectional path tracing, path tracing, light tracing."""

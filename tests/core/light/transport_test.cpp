@@ -81,9 +81,11 @@ TEST_P(LightTransport, WeightsFollowTheDefinition) {
   const auto camera = make_camera(scene->camera, 32, 32);
   Random random(7);
   uint64_t paths = 0;
+  WalkSettings settings;
+  settings.max_edges = 7;
   for (int i = 0; i < samples(1000); ++i) {
     const WeightCheck c = check_weights(*scene, *camera, 32.0f * random.next_2d(),
-                                        Heuristic::Balance, {1, 1, 0.5f, 2}, WalkSettings{7}, 3, i);
+                                        Heuristic::Balance, {1, 1, 0.5f, 2}, settings, 3, i);
     paths += c.paths;
     ASSERT_LT(c.max_error, 1e-3);
   }

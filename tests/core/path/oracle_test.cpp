@@ -139,11 +139,12 @@ WeightCheck check(const Scene& scene, Heuristic heuristic, const SampleCounts& c
   constexpr int kSide = 32;
   const auto camera = make_camera(scene.camera, kSide, kSide);
   Random random(7);
+  WalkSettings settings;
+  settings.max_edges = max_edges;
   WeightCheck sum;
   for (int i = 0; i < samples(paths); ++i) {
     const vec2 raster = static_cast<float>(kSide) * random.next_2d();
-    const WeightCheck c =
-        check_weights(scene, *camera, raster, heuristic, counts, WalkSettings{max_edges}, 3, i);
+    const WeightCheck c = check_weights(scene, *camera, raster, heuristic, counts, settings, 3, i);
     sum.paths += c.paths;
     sum.max_error = std::max(sum.max_error, c.max_error);
     sum.sum_error += c.sum_error;

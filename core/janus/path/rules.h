@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which paths count. The rules are functions of the finished, labelled path, the same for every
+// technique (s,t); a technique may look at a part of the path early, to give up on what can never
+// be completed.
+#pragma once
+
+#include <algorithm>
+
+#include "janus/path/label.h"
+
+namespace janus {
+
+// Cycles' limits of bounces by label. Of the scattering vertices z_1 ... z_{k-1}, all but z_1,
+// which the light shines on, are bounces: a limit of 0 leaves direct light.
+class BounceCaps {
+ public:
+  BounceCaps() : BounceCaps(1024, 1024, 1024) {}
+  BounceCaps(int diffuse, int glossy, int transmission)
+      : caps_{diffuse, glossy, transmission}, least_(std::min({diffuse, glossy, transmission})) {}
+
+  int least() const { return least_; }
+  int operator[](int label) const { return caps_[label]; }
+  bool allow(const BounceCounts& counts) const {
+    return counts.of[0] <= caps_[0] && counts.of[1] <= caps_[1] && counts.of[2] <= caps_[2];
+  }
+  // The share of a path with `counts` and a vertex more that is allowed.
+  float share(const BounceCounts& counts, const LabelShares& vertex) const {
+    float sum = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+      const auto label = static_cast<RayType>(i);
+      sum += vertex.of[i] > 0.0f && allow(counts.with(label)) ? vertex.of[i] : 0.0f;
+    }
+    return sum;
+  }
+  // And with two vertices more.
+  float share(const BounceCounts& counts, const LabelShares& a, const LabelShares& b) const {
+    float sum = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+      if (a.of[i] > 0.0f) {
+        sum += a.of[i] * share(counts.with(static_cast<RayType>(i)), b);
+      }
+    }
+    return sum;
+  }
+
+ private:
+  int caps_[3];  // by RayType
+  int least_;
+};
+
+struct PathRules {
+  int max_edges = 14;     // edges of a whole path; Cycles' max_bounces + 2
+  int max_crossings = 8;  // of transparent surfaces on a whole path
+  BounceCaps caps;
+
+  // Can a limit by label forbid a path of so many edges?
+  bool caps_bind(int edges) const { return edges - 2 > caps.least(); }
+  // Or any path at all? If not, nobody needs to count.
+  bool counts() const { return caps_bind(max_edges); }
+};
+
+}  // namespace janus

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Clamping: what a contribution may add to a sample of a pixel.
+#include "janus/integrator/clamp.h"
+
+#include "support/pictures.h"
+#include "support/scene_kit.h"
+
+namespace janus::test {
+namespace {
+
+TEST(Clamp, LimitsTheMeanOfTheChannels) {
+  const Clamp clamp(2.0f, 0.5f);
+  EXPECT_EQ(clamp(Rgb(1, 2, 3), 2), Rgb(1, 2, 3));  // the mean is 2
+  EXPECT_EQ(clamp(Rgb(4, 0, 8), 1), Rgb(2, 0, 4));
+  EXPECT_EQ(clamp(Rgb(4, 0, 8), 2), Rgb(2, 0, 4));
+  EXPECT_EQ(clamp(Rgb(4, 0, 8), 3), Rgb(0.5f, 0, 1));
+  const Clamp off(0.0f, 0.0f);
+  EXPECT_EQ(off(Rgb(1e30f), 2), Rgb(1e30f));
+  EXPECT_EQ(off(Rgb(1e30f), 3), Rgb(1e30f));
+}
+
+// No sample holds more than the limit for each of its contributions: here one per path length.
+TEST(Clamp, BoundsEveryIntegrator) {
+  const auto scene = open_box().light("l", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 60)).build();
+  for (const IntegratorType integrator :
+       {IntegratorType::PathTracer, IntegratorType::LightTracer, IntegratorType::Bdpt}) {
+    SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator));
+    RenderSettings settings = small_picture(integrator, samples(16));
+    settings.max_bounces = 1;
+    const double all = quarters(scene, settings)[0].mean();
+    settings.clamp_indirect = 0.02f;
+    const auto indirect = quarters(scene, settings);
+    settings.max_bounces = 0;
+    const double direct = quarters(scene, settings)[0].mean();
+    EXPECT_LT(indirect[0].mean(), all - 0.5 * (all - direct));  // cut
+    EXPECT_GT(indirect[0].mean(), 0.98 * direct);               // and nothing but indirect light
+    settings.clamp_direct = 0.1f;
+    const double clamped = quarters(scene, settings)[0].mean();
+    EXPECT_LT(clamped, 0.7 * direct);
+    EXPECT_GT(clamped, 0.01 * direct);
+  }
+}
+
+// A path tracer's sample with one contribution: min(value, limit) on average.
+TEST(Clamp, OneContributionIsCutToTheLimit) {
+  SceneKit kit;
+  kit.add("wall", plane(9, 9), emission(Rgb(3), 1)).camera({0, 0, 3}, {0, 0, 0}, 0.1f);
+  const auto scene = kit.build();
+  for (const IntegratorType integrator :
+       {IntegratorType::PathTracer, IntegratorType::LightTracer, IntegratorType::Bdpt}) {
+    RenderSettings settings = small_picture(integrator, 2);
+    settings.clamp_direct = 1.25f;
+    EXPECT_NEAR(quarters(scene, settings, 2)[0].mean(), 1.25, 1e-5);
+    settings.clamp_direct = 5.0f;
+    settings.clamp_indirect = 0.01f;
+    EXPECT_NEAR(quarters(scene, settings, 2)[0].mean(), 3.0, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace janus::test

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One room under the rules for whole paths: pictures by Cycles, and captures.
+
+`python rules_scenes.py FOLDER [CASE...]` writes FOLDER/CASE.npz (a capture) and FOLDER/CASE_N.exr
+(Cycles, with seed N). One process makes them all.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SIZE, SEEDS, SAMPLES, BOUNCES = 24, 6, 256, 5
+KINDS = ("diffuse", "glossy", "transmission")
+
+# Name: limits of bounces by kind. What is not named has no limit but that of all bounces.
+CAPS = {f"{kind}_{limit}": {kind: limit} for kind in KINDS for limit in (0, 1, 2)}
+CAPS |= {"mixed": {"diffuse": 1, "glossy": 1, "transmission": 2}}
+CASES = [*CAPS]
+
+
+def limits(name: str) -> dict[str, int]:
+    """The settings of Janus that belong to a case."""
+    return {f"max_{kind}_bounces": limit for kind, limit in CAPS.get(name, {}).items()}
+
+
+def room(scene) -> None:
+    """Every label, alone and shared, within one's reach of a lamp. Nothing is smooth: Cycles' own
+    noise must stay small."""
+    from scenes import kit
+
+    white = kit.diffuse("White", (0.8, 0.75, 0.7))
+    plastic = kit.shader(
+        "Plastic", "BsdfPrincipled", **{"Base Color": (0.7, 0.3, 0.2, 1.0), "Roughness": 0.5}
+    )
+    metal = kit.shader(
+        "Metal", "BsdfAnisotropic", "GGX", Color=(0.9, 0.85, 0.7, 1.0), Roughness=0.5
+    )
+    glass = kit.shader(
+        "Glass", "BsdfGlass", "GGX", Color=(0.9, 0.95, 1.0, 1.0), Roughness=0.5, IOR=1.4
+    )
+    leaf = kit.shader("Leaf", "BsdfTranslucent", Color=(0.6, 0.9, 0.5, 1.0))
+    kit.quad(
+        scene, "Floor", [(-1.5, -1.5, 0), (1.5, -1.5, 0), (1.5, 1.5, 0), (-1.5, 1.5, 0)], white
+    )
+    kit.quad(
+        scene, "Back", [(-1.5, 1.5, 0), (1.5, 1.5, 0), (1.5, 1.5, 2.4), (-1.5, 1.5, 2.4)], white
+    )
+    kit.quad(
+        scene,
+        "Side",
+        [(-1.5, -1.5, 0), (-1.5, 1.5, 0), (-1.5, 1.5, 2.4), (-1.5, -1.5, 2.4)],
+        metal,
+    )
+    kit.box(scene, "Block", (0.7, 0.6, 0.7), plastic).location = (-0.55, 0.5, 0.0)
+    kit.sphere(scene, "Ball", 0.45, glass, 32).location = (0.6, -0.2, 0.5)
+    kit.quad(
+        scene, "Leaf", [(0.2, 0.7, 0.1), (1.3, 0.9, 0.1), (1.3, 0.5, 1.3), (0.2, 0.4, 1.3)], leaf
+    )
+    kit.area_light(scene, "Lamp", (0.4, -0.6, 2.3), (0.0, 0.1, 0.3), (1.2, 1.2), 60.0)
+    kit.camera(scene, (0.3, -4.6, 1.9), (0.0, 0.1, 0.75), lens=50.0)
+
+
+def build(name: str):
+    """The scene of one case in a fresh file."""
+    import bpy
+
+    from scenes import kit
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    kit.neutral_settings(scene, SIZE, SIZE, SAMPLES)
+    kit.world(scene)
+    room(scene)
+    for kind in KINDS:
+        setattr(scene.cycles, f"{kind}_bounces", CAPS.get(name, {}).get(kind, 1024))
+    scene.cycles.max_bounces = BOUNCES
+    return scene
+
+
+def main(folder: Path, names: list[str]) -> None:
+    import bpy
+
+    from scenes.driver import addon as addons
+
+    addon = addons.load()
+    for name in names:
+        scene = build(name)
+        scene.render.image_settings.file_format = "OPEN_EXR"
+        scene.render.image_settings.color_depth = "32"
+        scene.render.threads_mode, scene.render.threads = "FIXED", 2
+        scene.render.engine = "CYCLES"
+        for seed in range(1, SEEDS + 1):
+            scene.cycles.seed = seed
+            scene.render.filepath = str(folder / f"{name}_{seed}.exr")
+            bpy.ops.render.render(write_still=True)
+        scene.render.engine = addons.ENGINE
+        scene.janus.samples, scene.janus.max_bounces = 1, BOUNCES
+        scene.janus.capture_path = str(folder / f"{name}.npz")
+        bpy.ops.render.render()
+        for entry, _ in addon.part("report").kept(scene.name_full):
+            if entry.severity != "INFO":
+                print(f"{name}: {entry}", file=sys.stderr)
+        scene.render.engine = "CYCLES"
+    with contextlib.suppress(Exception):
+        addon.unload()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(0)  # Blender's own exit can crash
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(ROOT))
+    main(Path(sys.argv[1]), sys.argv[2:] or CASES)
