@@ -33,6 +33,7 @@ const Variant kVariants[] = {
        s.connections = 0.4f;
        s.light_paths = 1.7f;
      }},
+    {"AdaptiveCounts", [](RenderSettings& s) { s.adaptive_counts = true; }},
     {"WithoutRoulette", [](RenderSettings& s) { s.roulette = false; }},
     {"PathTracerWithPowerHeuristic",
      [](RenderSettings& s) {
@@ -222,6 +223,7 @@ TEST_P(Frames, SameImageBitForBitWithAnyNumberOfThreads) {
   s.width = 80;
   s.height = 60;
   s.cache_bytes = 1 << 19;
+  s.adaptive_counts = true;
   s.threads = 1;
   const Image one = render(scene, s);
   for (const int threads : {2, 3, 5}) {
