@@ -37,7 +37,9 @@ class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
         column.prop(janus, "integrator")
         column = column.column()
         column.active = janus.integrator == "BDPT"
-        column.prop(janus, "adaptive_counts")
+        row = column.row()
+        row.active = janus.heuristic == "BALANCE"
+        row.prop(janus, "adaptive_counts")
         column.prop(janus, "light_paths")
         column.prop(janus, "connections")
         column.prop(janus, "heuristic")

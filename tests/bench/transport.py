@@ -21,11 +21,12 @@ from _measure import CapturedScene, Cycles, relative_variance, spread
 
 SIZE, BOUNCES = 256, 8
 CYCLES_SAMPLES = 8  # and four times as many
-VARIANCE_SAMPLES, VARIANCE_SIZE = 16, 96
+VARIANCE_SAMPLES, VARIANCE_SIZE = 64, 96
 EASY = ("diffuse_box", "studio")
 PT = {"integrator": "pt"}
 BDPT = {"integrator": "bdpt", "light_paths": 1.0, "connections": 1.0}
 ZERO = {"integrator": "bdpt", "light_paths": 0.0, "connections": 0.0}
+AUTOMATIC = {**BDPT, "adaptive_counts": True}  # as in Blender
 
 
 @dataclass
@@ -116,12 +117,15 @@ def zero_counts(box: CapturedScene, seconds: float) -> list[float]:
 
 
 def variance_time(name: str, options: argparse.Namespace) -> Row:
-    """Variance of a pixel at equal samples, times the time of a sample: bdpt over pt."""
+    """Variance of a pixel at equal samples, times the time of a sample: bdpt over pt.
+
+    With the counts that bdpt finds by itself, the passes that measure them included.
+    """
     scene = CapturedScene(name, VARIANCE_SIZE, BOUNCES, options.threads)
     pictures: dict[str, list] = {"pt": [], "bdpt": []}
     times: dict[str, list[float]] = {"pt": [], "bdpt": []}
     for seed in range(options.seeds):
-        for number, (key, settings) in enumerate((("pt", PT), ("bdpt", BDPT))):
+        for number, (key, settings) in enumerate((("pt", PT), ("bdpt", AUTOMATIC))):
             picture, stats = scene.render(
                 samples=VARIANCE_SAMPLES, seed=1000 * (number + 1) + seed, **settings
             )
