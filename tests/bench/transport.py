@@ -24,7 +24,12 @@ CYCLES_SAMPLES = 8  # and four times as many
 VARIANCE_SAMPLES, VARIANCE_SIZE = 64, 96
 EASY = ("diffuse_box", "studio")
 PT = {"integrator": "pt"}
-BDPT = {"integrator": "bdpt", "light_paths": 1.0, "connections": 1.0}
+BDPT = {
+    "integrator": "bdpt",
+    "light_paths": 1.0,
+    "connections": 1.0,
+    "adaptive_counts": False,
+}
 ZERO = {"integrator": "bdpt", "light_paths": 0.0, "connections": 0.0}
 AUTOMATIC = {**BDPT, "adaptive_counts": True}  # as in Blender
 
