@@ -35,10 +35,11 @@ class PerspectiveCamera final : public Camera {
   }
 
   std::optional<CameraConnection> connect(vec3 p, vec2 u_lens, float margin) const override {
+    std::optional<CameraConnection> to_camera;
     const vec3 local = pose_.to_local(p);
     const float depth = -local.z;
     if (!(depth > 0.0f)) {
-      return std::nullopt;
+      return to_camera;
     }
     vec2 lens(0.0f), chief = vec2(local) / depth;
     if (!aperture_.pinhole()) {
@@ -47,7 +48,7 @@ class PerspectiveCamera final : public Camera {
     }
     const vec2 raster = window_.to_raster(chief);
     if (!window_.contains(raster, margin)) {
-      return std::nullopt;
+      return to_camera;
     }
     const float chief_length = std::sqrt(1.0f + dot(chief, chief));
     const vec3 world_lens = pose_.to_world(vec3(lens, 0.0f));
@@ -55,14 +56,16 @@ class PerspectiveCamera final : public Camera {
     const float d2 = length2(to_lens);
     const float distance = std::sqrt(d2);
     if (!(distance > near_ * chief_length && distance < far_ * chief_length)) {
-      return std::nullopt;
+      return to_camera;
     }
     const vec3 wo = to_lens / distance;
-    return CameraConnection{raster,
-                            wo,
-                            world_lens - near_ * chief_length * wo,
-                            d2,
-                            {pdf_solid(depth / distance), true}};
+    to_camera.emplace();
+    to_camera->raster = raster;
+    to_camera->wo = wo;
+    to_camera->target = world_lens - near_ * chief_length * wo;
+    to_camera->distance2 = d2;
+    to_camera->density = {pdf_solid(depth / distance), true};
+    return to_camera;
   }
 
  private:

@@ -100,8 +100,8 @@ struct Accel::Impl {
     }
   }
 
-  std::optional<SurfaceInteraction> intersect(const Accel& accel, RTCScene scene,
-                                              const Ray& ray) const {
+  bool intersect(const std::vector<Placement>& placements, RTCScene scene, const Ray& ray,
+                 SurfaceInteraction& hit) const {
     RTCRayHit query = to_embree(ray);
 #if RTC_VERSION_MAJOR >= 4
     rtcIntersect1(scene, &query, nullptr);
@@ -111,10 +111,11 @@ struct Accel::Impl {
     rtcIntersect1(scene, &context, &query);
 #endif
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-      return std::nullopt;
+      return false;
     }
-    return accel.surface_point(query.hit.instID[0], query.hit.primID,
-                               vec2(query.hit.u, query.hit.v));
+    hit.instance = query.hit.instID[0];
+    placements[hit.instance].surface_point(query.hit.primID, vec2(query.hit.u, query.hit.v), hit);
+    return true;
   }
 
   bool occluded(RTCScene scene, vec3 a, vec3 b) const {
@@ -202,8 +203,8 @@ Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& insta
 
 Accel::~Accel() = default;
 
-std::optional<SurfaceInteraction> Accel::intersect(const Ray& ray) const {
-  return impl_->intersect(*this, impl_->all, ray);
+bool Accel::intersect(const Ray& ray, SurfaceInteraction& hit) const {
+  return impl_->intersect(placements_, impl_->all, ray, hit);
 }
 
 bool Accel::occluded(vec3 a, vec3 b) const { return impl_->occluded(impl_->all, a, b); }
@@ -212,15 +213,13 @@ bool Accel::occluded_opaque(vec3 a, vec3 b) const {
   return impl_->occluded(impl_->transparent ? impl_->opaque : impl_->all, a, b);
 }
 
-std::optional<SurfaceInteraction> Accel::intersect_transparent(const Ray& ray) const {
-  if (!impl_->transparent) {
-    return std::nullopt;
-  }
-  return impl_->intersect(*this, impl_->transparent, ray);
+bool Accel::intersect_transparent(const Ray& ray, SurfaceInteraction& hit) const {
+  return impl_->transparent && impl_->intersect(placements_, impl_->transparent, ray, hit);
 }
 
 SurfaceInteraction Accel::surface_point(uint32_t instance, uint32_t primitive, vec2 b) const {
-  SurfaceInteraction point = placements_[instance].surface_point(primitive, b);
+  SurfaceInteraction point;
+  placements_[instance].surface_point(primitive, b, point);
   point.instance = instance;
   return point;
 }

@@ -25,8 +25,8 @@ class Accel {
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
 
-  // The nearest surface within (0, ray.t_max).
-  std::optional<SurfaceInteraction> intersect(const Ray& ray) const;
+  // The nearest surface within (0, ray.t_max), written to `hit`; false: none.
+  bool intersect(const Ray& ray, SurfaceInteraction& hit) const;
 
   // The share of a shadow ray that is traced: a surface at its end, seen from afar, is known no
   // better than to the rest.
@@ -40,7 +40,7 @@ class Accel {
   // they are what a shadow ray meets that some surfaces let through. Both cost nothing where all
   // instances are opaque.
   bool occluded_opaque(vec3 a, vec3 b) const;
-  std::optional<SurfaceInteraction> intersect_transparent(const Ray& ray) const;
+  bool intersect_transparent(const Ray& ray, SurfaceInteraction& hit) const;
 
   // The surface at barycentric coordinates (b1, b2) of a triangle; `offset` and normals as from a
   // hit. Used by light sampling, so that both ends of a shadow ray follow one rule.

@@ -55,14 +55,13 @@ Placement::Placement(const Mesh& mesh, const Instance& instance)
   determinant_error_ = error.determinant / determinant;
 }
 
-SurfaceInteraction Placement::surface_point(uint32_t primitive, vec2 b) const {
+void Placement::surface_point(uint32_t primitive, vec2 b, SurfaceInteraction& hit) const {
   const Mesh::Triangle& triangle = triangles_[primitive];
   const vec3 v0 = positions_[triangle.v[0]];
   const vec3 v1 = positions_[triangle.v[1]];
   const vec3 v2 = positions_[triangle.v[2]];
   const float b0 = 1.0f - b.x - b.y;
 
-  SurfaceInteraction hit;
   hit.primitive = primitive;
   hit.material = instance_->material(triangle.material);
   hit.p = position(primitive, b);
@@ -98,7 +97,6 @@ SurfaceInteraction Placement::surface_point(uint32_t primitive, vec2 b) const {
                        determinant_error_ * std::abs(dot(object_normal, v0)) +
                        0x1p-13f * max_component(n) * max_component(extent);
   hit.offset = kGamma * (to_world + object / length) + tilt / length;
-  return hit;
 }
 
 }  // namespace janus

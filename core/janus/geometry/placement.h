@@ -22,8 +22,8 @@ class Placement {
            translation_;
   }
 
-  // The surface there; `instance` stays unset.
-  SurfaceInteraction surface_point(uint32_t primitive, vec2 b) const;
+  // Writes the surface there to `hit`, but for its `instance`.
+  void surface_point(uint32_t primitive, vec2 b, SurfaceInteraction& hit) const;
 
  private:
   mat3 linear_;

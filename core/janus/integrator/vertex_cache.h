@@ -58,6 +58,8 @@ class VertexCache {
     for (size_t i = 0; i < count_; ++i) {
       first_.push_back(first_.back() + blocks_[i].vertices.size());
     }
+    blocks_per_entry_ =
+        static_cast<double>(count_) / static_cast<double>(std::max<size_t>(size(), 1));
   }
 
   size_t size() const { return first_.back(); }
@@ -76,7 +78,8 @@ class VertexCache {
   // Entry `i` in the order of the light paths. Blocks are about equally full, so the guess is
   // close.
   Entry at(size_t i) const {
-    size_t block = std::min(i * count_ / size(), count_ - 1);
+    size_t block =
+        std::min(static_cast<size_t>(static_cast<double>(i) * blocks_per_entry_), count_ - 1);
     while (first_[block] > i) {
       --block;
     }
@@ -88,7 +91,8 @@ class VertexCache {
 
  private:
   std::vector<CacheBlock> blocks_;
-  size_t count_ = 0;              // blocks in use
+  size_t count_ = 0;  // blocks in use
+  double blocks_per_entry_ = 0.0;
   std::vector<size_t> first_{0};  // number of the block's first entry; the total at the end
 };
 

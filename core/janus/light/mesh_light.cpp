@@ -51,8 +51,9 @@ std::vector<Emitter> MeshLight::emitters() const {
 }
 
 std::optional<EmissionSample> MeshLight::sample_emission(vec2 u_position, vec2 u_direction) const {
+  std::optional<EmissionSample> sample;
   if (triangles_.empty()) {
-    return std::nullopt;
+    return sample;
   }
   const bool front = u_direction.x < 0.5f;
   u_direction.x =
@@ -61,13 +62,15 @@ std::optional<EmissionSample> MeshLight::sample_emission(vec2 u_position, vec2 u
   const vec3 p = accel_.position(instance_, triangle.primitive, square_to_triangle(u_position));
   const vec3 n = front ? triangle.ng : -triangle.ng;
   const vec3 direction = Frame(n).to_world(square_to_cosine_hemisphere(u_direction));
-  return EmissionSample{offset_origin(p, triangle.ng, triangle.offset, direction),
-                        direction,
-                        triangle.radiance / triangle.density.value,
-                        triangle.density,
-                        n,
-                        triangle.pdf_area,
-                        triangle.primitive};
+  sample.emplace();
+  sample->origin = offset_origin(p, triangle.ng, triangle.offset, direction);
+  sample->direction = direction;
+  sample->weight = triangle.radiance / triangle.density.value;
+  sample->density = triangle.density;
+  sample->normal = n;
+  sample->pdf_area = triangle.pdf_area;
+  sample->primitive = triangle.primitive;
+  return sample;
 }
 
 std::optional<IlluminationSample> MeshLight::sample_illumination(vec3 receiver, uint32_t primitive,

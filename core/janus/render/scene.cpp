@@ -13,16 +13,16 @@ Rgb Scene::transmittance_through(vec3 a, vec3 b, int max_crossings) const {
   const float rest = (1.0f - Accel::kShadowReach) * length;
   Rgb result(1.0f);
   Ray ray{a, d, length - rest};
+  SurfaceInteraction hit;
   for (int crossings = 0;; ++crossings) {
-    const auto hit = accel->intersect_transparent(ray);
-    if (!hit) {
+    if (!accel->intersect_transparent(ray, hit)) {
       return result;
     }
-    result *= shade(*hit).transparency;
+    result *= shade(hit).transparency;
     if (is_black(result) || crossings >= max_crossings) {
       return Rgb(0.0f);
     }
-    ray.origin = offset_origin(hit->p, hit->ng, hit->offset, d);
+    ray.origin = offset_origin(hit.p, hit.ng, hit.offset, d);
     ray.t_max = dot(b - ray.origin, d) - rest;
     if (!(ray.t_max > 0.0f)) {
       return result;

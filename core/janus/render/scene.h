@@ -22,14 +22,14 @@ class Scene {
  public:
   // The nearest surface, written to `hit`; false: none.
   bool intersect(const Ray& ray, SurfaceInteraction& hit) const {
-    const auto found = accel->intersect(ray);
-    if (found) {
-      hit = *found;
-    }
-    return found.has_value();
+    return accel->intersect(ray, hit);
   }
   std::optional<SurfaceInteraction> intersect(const Ray& ray) const {
-    return accel->intersect(ray);
+    std::optional<SurfaceInteraction> hit(std::in_place);
+    if (!intersect(ray, *hit)) {
+      hit.reset();
+    }
+    return hit;
   }
   void shade(const SurfaceInteraction& hit, ShadingResult& result) const {
     programs[hit.material].run(hit.ns, result);

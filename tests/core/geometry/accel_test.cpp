@@ -117,19 +117,20 @@ TEST(Accel, OpaqueAndTransparentInstances) {
   }
   const auto scene = kit.build();
   const auto down = [](float z) { return Ray{vec3(0.1f, 0.2f, z), vec3(0, 0, -1)}; };
-  EXPECT_FALSE(scene->accel->intersect_transparent(down(9)));
+  SurfaceInteraction hit;
+  EXPECT_FALSE(scene->accel->intersect_transparent(down(9), hit));
   EXPECT_TRUE(scene->accel->occluded_opaque(vec3(0.1f, 0, 2.5f), vec3(0.1f, 0, 1.5f)));
 
   std::vector<Instance> instances = scene->instances;
   instances[1].opaque = instances[2].opaque = false;
   const Accel accel(scene->meshes, instances, CancelToken());
-  EXPECT_EQ(accel.intersect_transparent(down(9))->instance, 2u);
-  EXPECT_EQ(accel.intersect_transparent(down(1.5f))->instance, 1u);
-  EXPECT_FALSE(accel.intersect_transparent(down(0.5f)));
+  EXPECT_TRUE(accel.intersect_transparent(down(9), hit) && hit.instance == 2);
+  EXPECT_TRUE(accel.intersect_transparent(down(1.5f), hit) && hit.instance == 1);
+  EXPECT_FALSE(accel.intersect_transparent(down(0.5f), hit));
   Ray capped = down(9);
   capped.t_max = 6.9f;
-  EXPECT_FALSE(accel.intersect_transparent(capped));
-  EXPECT_EQ(accel.intersect(down(9))->instance, 3u);
+  EXPECT_FALSE(accel.intersect_transparent(capped, hit));
+  EXPECT_TRUE(accel.intersect(down(9), hit) && hit.instance == 3);
   for (int i = 0; i < 4; ++i) {
     const vec3 above(0.1f, 0.2f, i + 0.5f), below(0.1f, 0.2f, i - 0.5f);
     EXPECT_TRUE(accel.occluded(above, below));
@@ -149,8 +150,9 @@ TEST(Accel, InstancesShareTheirMesh) {
     }
     const Accel accel(meshes, instances, CancelToken());
     for (const int i : {0, count / 2, count - 1}) {
-      const auto hit = accel.intersect(Ray{vec3(3.0f * i, 0, 9), vec3(0, 0, -1)});
-      EXPECT_TRUE(hit && hit->instance == static_cast<uint32_t>(i));
+      SurfaceInteraction hit;
+      EXPECT_TRUE(accel.intersect(Ray{vec3(3.0f * i, 0, 9), vec3(0, 0, -1)}, hit));
+      EXPECT_EQ(hit.instance, static_cast<uint32_t>(i));
     }
     return accel.bytes();
   };
