@@ -26,6 +26,15 @@ def test_integrators_agree(captured, scene, samples):
         found.check(TOLERANCE)
 
 
+def test_automatic_counts_show_the_same_picture(captured):
+    """They look at a pass before they choose; what they saw is part of the picture."""
+    series = captured("glass_box").series
+    pt = series("pt", 1536, SEEDS)
+    found = compare(series("bdpt", 256, SEEDS, adaptive_counts=True), pt, block=8)
+    print(f"glass_box, bdpt with automatic counts against pt: {found}")
+    found.check(TOLERANCE)
+
+
 def test_light_tracing_agrees_on_the_caustic_of_the_hero(captured):
     """Left of the glass, where nothing is seen by way of a specular surface."""
     bdpt = captured("hero_soft").series("bdpt", 1600, SEEDS)
