@@ -19,6 +19,7 @@ def mesh_arrays(mesh, slots: int) -> dict | None:
         "positions": _positions(mesh),
         "triangles": triangles(mesh, triangle_count),
         "corner_vertices": _corner_vertices(mesh, corner_count),
+        "vertex_normals": _vertex_normals(mesh),
         "corner_normals": _corner_normals(mesh, corner_count),
         "material_indices": _material_indices(mesh, triangle_count, slots),
     }
@@ -64,9 +65,18 @@ def _corner_vertices(mesh, count: int) -> np.ndarray:
     return result
 
 
+def _vertex_normals(mesh) -> np.ndarray | None:
+    """Where a vertex has one normal for all of its corners, a quarter of the numbers will do."""
+    if mesh.normals_domain != "POINT":
+        return None
+    result = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertex_normals.foreach_get("vector", result)
+    return result.reshape(-1, 3)
+
+
 def _corner_normals(mesh, count: int) -> np.ndarray | None:
-    if mesh.normals_domain == "FACE":
-        return None  # flat shading
+    if mesh.normals_domain != "CORNER":
+        return None  # flat shading, or normals of vertices
     result = np.empty(3 * count, dtype=np.float32)
     mesh.corner_normals.foreach_get("vector", result)
     return result.reshape(-1, 3)

@@ -59,24 +59,34 @@ std::vector<vec3> to_vectors(Key key, const char* path, const py::array& a) {
   return {first, first + count};
 }
 
-// Indices of any integer type; the core checks the upper bound.
-std::vector<uint32_t> to_indices(Key key, const char* path, const py::array& a,
-                                 py::ssize_t columns) {
+template <class T>
+void copy_indices(Key key, const char* path, const py::array& a, uint32_t* out) {
+  const auto values = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(a);
+  for (py::ssize_t i = 0; i < values.size(); ++i) {
+    const T value = values.data()[i];
+    if (value < 0 || static_cast<uint64_t>(value) > UINT32_MAX) {
+      const py::ssize_t row = a.ndim() == 2 ? i / a.shape(1) : i;
+      throw SceneError(key, path + ("[" + std::to_string(row) + "]"),
+                       "the index " + std::to_string(value) + " is out of range");
+    }
+    out[i] = static_cast<uint32_t>(value);
+  }
+}
+
+// Indices of any integer type, as Index (uint32_t, or a vector of `columns` of them); the core
+// checks the upper bound. Blender's own type is copied in one go.
+template <class Index>
+std::vector<Index> to_indices(Key key, const char* path, const py::array& a, py::ssize_t columns) {
   const char kind = a.dtype().kind();
   if (kind != 'i' && kind != 'u') {
     throw SceneError(key, path, "must hold integers");
   }
-  rows(key, path, a, columns);
-  const auto values = py::array_t<int64_t, py::array::c_style | py::array::forcecast>::ensure(a);
-  std::vector<uint32_t> result(values.size());
-  for (size_t i = 0; i < result.size(); ++i) {
-    const int64_t value = values.data()[i];
-    if (value < 0 || value > UINT32_MAX) {
-      const size_t row = columns ? i / columns : i;
-      throw SceneError(key, path + ("[" + std::to_string(row) + "]"),
-                       "the index " + std::to_string(value) + " is out of range");
-    }
-    result[i] = static_cast<uint32_t>(value);
+  std::vector<Index> result(rows(key, path, a, columns));
+  auto* out = reinterpret_cast<uint32_t*>(result.data());
+  if (a.dtype().equal(py::dtype::of<int32_t>())) {
+    copy_indices<int32_t>(key, path, a, out);
+  } else {
+    copy_indices<int64_t>(key, path, a, out);
   }
   return result;
 }
@@ -117,23 +127,23 @@ mat4 to_matrix(Key key, const py::object& value) {
 
 void set_mesh(SceneBuilder& self, Key key, std::string name, const py::object& positions,
               const py::object& triangles, const py::object& corner_vertices,
-              const py::object& corner_normals, const py::object& material_indices) {
+              const py::object& vertex_normals, const py::object& corner_normals,
+              const py::object& material_indices) {
   MeshDesc desc;
   desc.name = std::move(name);
   desc.positions = to_vectors(key, "positions", to_array(positions));
-  const auto corners = to_indices(key, "triangles", to_array(triangles), 3);
-  desc.triangles.reserve(corners.size() / 3);
-  for (size_t i = 0; i < corners.size(); i += 3) {
-    desc.triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
-  }
+  desc.triangles = to_indices<glm::uvec3>(key, "triangles", to_array(triangles), 3);
   if (const auto a = optional_array(corner_vertices)) {
-    desc.corner_vertices = to_indices(key, "corner_vertices", *a, 0);
+    desc.corner_vertices = to_indices<uint32_t>(key, "corner_vertices", *a, 0);
+  }
+  if (const auto a = optional_array(vertex_normals)) {
+    desc.vertex_normals = to_vectors(key, "vertex_normals", *a);
   }
   if (const auto a = optional_array(corner_normals)) {
     desc.corner_normals = to_vectors(key, "corner_normals", *a);
   }
   if (const auto a = optional_array(material_indices)) {
-    desc.material_indices = to_indices(key, "material_indices", *a, 0);
+    desc.material_indices = to_indices<uint32_t>(key, "material_indices", *a, 0);
   }
   self.set_mesh(key, std::move(desc));
 }
@@ -314,11 +324,12 @@ void bind_scene(py::module_& m) {
                            "again replaces the item. Lengths in metres, matrices as in Blender.")
       .def(py::init<>())
       .def("set_mesh", &set_mesh, "key"_a, py::kw_only(), "name"_a, "positions"_a, "triangles"_a,
-           "corner_vertices"_a = py::none(), "corner_normals"_a = py::none(),
-           "material_indices"_a = py::none(),
+           "corner_vertices"_a = py::none(), "vertex_normals"_a = py::none(),
+           "corner_normals"_a = py::none(), "material_indices"_a = py::none(),
            "positions float[N,3]; triangles int[M,3], indices of corners; corner_vertices int[C], "
-           "vertex of each corner (None: corners are vertices); corner_normals float[C,3] (None: "
-           "flat); material_indices int[M], slot per triangle (None: slot 0). Arrays are copied.")
+           "vertex of each corner (None: corners are vertices); vertex_normals float[N,3] or "
+           "corner_normals float[C,3] (neither: flat); material_indices int[M], slot per triangle "
+           "(None: slot 0). Arrays are copied.")
       .def(
           "set_material",
           [](SceneBuilder& self, Key key, std::string name, const py::dict& graph) {

@@ -32,7 +32,7 @@ def test_square(scene, export):
     edges = np.diff(triangle_positions(mesh), axis=1)
     area = 0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum()
     assert area == pytest.approx(4.0)
-    assert mesh["corner_normals"] is None  # flat
+    assert mesh["vertex_normals"] is None and mesh["corner_normals"] is None  # flat
     assert mesh["material_indices"] is None
     transform = recorder.by_name()["Square"]["transform"]
     assert transform.shape == (4, 4) and list(transform[:3, 3]) == [1, 2, 3]
@@ -44,10 +44,10 @@ def test_smooth_normals(scene, export):
     bpy.ops.object.shade_smooth()
     recorder = export()
     mesh = recorder.mesh_of("Sphere")
-    normals = mesh["corner_normals"]
-    assert normals.shape == (len(mesh["corner_vertices"]), 3) and normals.dtype == np.float32
-    radial = mesh["positions"][mesh["corner_vertices"]]
-    assert (normals * radial).sum(axis=1).min() > 0.98
+    normals = mesh["vertex_normals"]
+    assert normals.shape == mesh["positions"].shape and normals.dtype == np.float32
+    assert mesh["corner_normals"] is None
+    assert (normals * mesh["positions"]).sum(axis=1).min() > 0.98
 
 
 def test_sharp_faces_have_their_own_corner_normals(scene, export):

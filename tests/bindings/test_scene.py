@@ -40,6 +40,7 @@ def test_counts(builder):
         ("triangles", [[0, 1, 4]]),
         ("triangles", [[0, 1, -1]]),
         ("corner_vertices", [0, 1, 2, 9]),
+        ("vertex_normals", np.zeros((3, 3))),
         ("corner_normals", np.zeros((3, 3))),
         ("material_indices", [0, 0, 0]),
     ],
@@ -64,6 +65,21 @@ def test_arrays_of_any_layout_give_the_same_scene(builder):
     assert np.array_equal(render(builder.commit()).snapshot(), expected)
     builder.set_mesh("mesh", name="Floor", **{k: v.tolist() for k, v in PLANE.items()})
     assert np.array_equal(render(builder.commit()).snapshot(), expected)
+
+
+def test_normals_of_vertices_and_of_corners_give_the_same_scene(builder):
+    normals = np.array([[0.3, 0, 1], [0, 0.2, 1], [-0.3, 0, 1], [0, -0.2, 1]], dtype=np.float32)
+    corners = np.array([2, 0, 1, 3, 2, 0], dtype=np.int32)
+    common = {"name": "Floor", "positions": PLANE["positions"], "corner_vertices": corners}
+    common["triangles"] = np.array([[1, 2, 0], [5, 4, 3]])
+    flat = render(builder.commit()).snapshot()
+    builder.set_mesh("mesh", **common, corner_normals=normals[corners])
+    expected = render(builder.commit()).snapshot()
+    assert not np.array_equal(expected, flat)
+    builder.set_mesh("mesh", **common, vertex_normals=normals)
+    assert np.array_equal(render(builder.commit()).snapshot(), expected)
+    both = {"vertex_normals": normals, "corner_normals": normals[corners]}
+    assert error_of(builder, "set_mesh", "mesh", **common, **both).path == "vertex_normals"
 
 
 def test_arrays_are_copied(builder):

@@ -14,6 +14,14 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
                      "has " + std::to_string(desc.corner_normals.size()) + " normals for " +
                          std::to_string(corners) + " corners");
   }
+  if (!desc.vertex_normals.empty() && desc.vertex_normals.size() != desc.positions.size()) {
+    throw SceneError(key, "vertex_normals",
+                     "has " + std::to_string(desc.vertex_normals.size()) + " normals for " +
+                         std::to_string(desc.positions.size()) + " positions");
+  }
+  if (!desc.vertex_normals.empty() && !desc.corner_normals.empty()) {
+    throw SceneError(key, "vertex_normals", "and corner_normals exclude each other");
+  }
   if (!desc.material_indices.empty() && desc.material_indices.size() != desc.triangles.size()) {
     throw SceneError(key, "material_indices",
                      "has " + std::to_string(desc.material_indices.size()) + " entries for " +
@@ -40,8 +48,8 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
         throw SceneError(key, "triangles[" + std::to_string(i) + "]",
                          "is out of range: the mesh has " + std::to_string(corners) + " corners");
       }
-      triangle.corner[k] = corner;
       triangle.v[k] = desc.corner_vertices.empty() ? corner : desc.corner_vertices[corner];
+      triangle.normal[k] = desc.vertex_normals.empty() ? corner : triangle.v[k];
       finite = finite && is_finite(desc.positions[triangle.v[k]]);
     }
     triangle.material = desc.material_indices.empty() ? 0 : desc.material_indices[i];
@@ -56,7 +64,7 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
         {Severity::Warning, name_, "", "",
          std::to_string(dropped) + " triangles with non-finite vertices are left out"});
   }
-  normals_ = desc.corner_normals;
+  normals_ = desc.vertex_normals.empty() ? desc.corner_normals : desc.vertex_normals;
 }
 
 }  // namespace janus

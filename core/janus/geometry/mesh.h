@@ -16,7 +16,7 @@ class Mesh {
  public:
   struct Triangle {
     uint32_t v[3];       // positions
-    uint32_t corner[3];  // corner normals
+    uint32_t normal[3];  // normals
     uint32_t material;   // slot
   };
 
@@ -28,14 +28,13 @@ class Mesh {
   const std::vector<vec3>& positions() const { return positions_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   bool smooth() const { return !normals_.empty(); }
-  vec3 normal(uint32_t corner) const { return normals_[corner]; }
-  const std::vector<vec3>& normals() const { return normals_; }  // per corner; empty: flat
+  const std::vector<vec3>& normals() const { return normals_; }  // of triangles; empty: flat
 
  private:
   std::string name_;
   std::vector<vec3> positions_;  // one more than used: Embree reads 16 bytes at the last vertex
   std::vector<Triangle> triangles_;
-  std::vector<vec3> normals_;  // per corner; empty: flat
+  std::vector<vec3> normals_;
 };
 
 // Object-to-world placement of a mesh.

@@ -71,8 +71,8 @@ void Placement::surface_point(uint32_t primitive, vec2 b, SurfaceInteraction& hi
   hit.ng = world_normal / length;
   hit.ns = hit.ng;
   if (normals_) {
-    const vec3 n = b0 * normals_[triangle.corner[0]] + b.x * normals_[triangle.corner[1]] +
-                   b.y * normals_[triangle.corner[2]];
+    const vec3 n = b0 * normals_[triangle.normal[0]] + b.x * normals_[triangle.normal[1]] +
+                   b.y * normals_[triangle.normal[2]];
     const vec3 ns = normal_ * n;
     const float ns_length = glm::length(ns);
     // Flat faces of a smooth mesh carry the face normal in every corner; take Ng itself there.

@@ -20,7 +20,8 @@ struct MeshDesc {
   std::vector<vec3> positions;
   std::vector<glm::uvec3> triangles;       // indices of corners
   std::vector<uint32_t> corner_vertices;   // corner -> position; empty: corners are the positions
-  std::vector<vec3> corner_normals;        // empty: flat shading
+  std::vector<vec3> vertex_normals;        // per position; or
+  std::vector<vec3> corner_normals;        // per corner; neither: flat shading
   std::vector<uint32_t> material_indices;  // per triangle, slot of the instance; empty: slot 0
 };
 

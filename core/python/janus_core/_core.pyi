@@ -109,14 +109,15 @@ class SceneBuilder:
         positions: npt.ArrayLike,
         triangles: npt.ArrayLike,
         corner_vertices: npt.ArrayLike | None = None,
+        vertex_normals: npt.ArrayLike | None = None,
         corner_normals: npt.ArrayLike | None = None,
         material_indices: npt.ArrayLike | None = None,
     ) -> None:
         """A mesh in object space.
 
         positions: float[N, 3]. triangles: int[M, 3], indices of corners. corner_vertices: int[C],
-        the position of each corner (None: the corners are the positions). corner_normals:
-        float[C, 3], need not be unit (None: flat shading). material_indices: int[M], the material
+        the position of each corner (None: the corners are the positions). Smooth shading:
+        vertex_normals float[N, 3] or corner_normals float[C, 3], need not be unit. material_indices: int[M], the material
         slot of each triangle (None: slot 0).
         """
     def set_material(self, key: str, *, name: str, graph: Mapping[str, Any]) -> None:

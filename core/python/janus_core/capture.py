@@ -24,7 +24,7 @@ from . import Error, IoError, RenderSettings, Scene, SceneBuilder, __version__
 __all__ = ["CapturingBuilder", "load"]
 
 FORMAT = "janus scene"
-VERSION = 1  # raised when an older reader could not understand a newer file
+VERSION = 2  # raised when an older reader could not understand a newer file
 
 _KINDS = (
     "mesh",
@@ -34,7 +34,14 @@ _KINDS = (
     "light",
 )  # in the order in which load() sets them
 _ARRAYS = {
-    "mesh": ("positions", "triangles", "corner_vertices", "corner_normals", "material_indices"),
+    "mesh": (
+        "positions",
+        "triangles",
+        "corner_vertices",
+        "vertex_normals",
+        "corner_normals",
+        "material_indices",
+    ),
     "image": ("pixels",),
 }
 _TRANSFORMS = "instance_transforms"  # one array for all, as there can be very many
@@ -162,7 +169,7 @@ def load(path: str | os.PathLike[str]) -> tuple[SceneBuilder, RenderSettings]:
             description = json.loads(archive.read("scene.json"))
             if not isinstance(description, dict) or description.get("format") != FORMAT:
                 raise IoError(f"cannot read {name}: it is not a capture of Janus")
-            if description.get("version") != VERSION:
+            if description.get("version") not in range(1, VERSION + 1):
                 raise IoError(
                     f"cannot read {name}: it has version {description.get('version')} of the "
                     f"format, this is janus_core {__version__} for version {VERSION}"
