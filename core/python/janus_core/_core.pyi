@@ -117,8 +117,8 @@ class SceneBuilder:
 
         positions: float[N, 3]. triangles: int[M, 3], indices of corners. corner_vertices: int[C],
         the position of each corner (None: the corners are the positions). Smooth shading:
-        vertex_normals float[N, 3] or corner_normals float[C, 3], need not be unit. material_indices: int[M], the material
-        slot of each triangle (None: slot 0).
+        vertex_normals float[N, 3] or corner_normals float[C, 3], need not be unit.
+        material_indices: int[M], the material slot of each triangle (None: slot 0).
         """
     def set_material(self, key: str, *, name: str, graph: Mapping[str, Any]) -> None:
         """A surface, as a flattened node tree:
