@@ -42,15 +42,16 @@ def neutral_settings(scene: bpy.types.Scene, width: int, height: int, samples: i
     render.use_compositing = False
     render.use_sequencer = False
     render.use_motion_blur = False
+    bounces = ("max", "diffuse", "glossy", "transmission")
     if hasattr(scene, "cycles"):
         unbiased_cycles(scene.cycles)
-        bounces = ("max", "diffuse", "glossy", "transmission")
         _set(scene.cycles, samples=samples, **{f"{kind}_bounces": 12 for kind in bounces})
         _set(scene.cycles, transparent_max_bounces=8)
         _set(scene.cycles, pixel_filter_type="BLACKMAN_HARRIS", filter_width=1.5)
     if hasattr(scene, "janus"):
-        _set(scene.janus, samples=samples, max_bounces=12, time_limit=0.0)
-        _set(scene.janus, transparent_max_bounces=8)
+        _set(scene.janus, samples=samples, time_limit=0.0, transparent_max_bounces=8)
+        _set(scene.janus, **{f"{kind}_bounces": 12 for kind in bounces})
+        _set(scene.janus, pixel_filter_type="BLACKMAN_HARRIS", filter_width=1.5)
 
 
 def unbiased_cycles(cycles: bpy.types.PropertyGroup) -> None:

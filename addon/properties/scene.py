@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scene.janus. Names and words are Cycles' where Cycles has the setting."""
+"""scene.janus. Names and words are Cycles' where Cycles has the setting.
+
+Settings that a file does not hold come from Cycles: read them through sync/cycles_settings.py.
+"""
 
 import bpy
 from bpy.props import (
@@ -60,12 +63,47 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         max=1024,
         default=12,
     )
+    diffuse_bounces: IntProperty(
+        name="Diffuse",
+        description="Maximum number of diffuse reflection bounces",
+        min=0,
+        max=1024,
+        default=4,
+    )
+    glossy_bounces: IntProperty(
+        name="Glossy",
+        description="Maximum number of glossy reflection bounces",
+        min=0,
+        max=1024,
+        default=4,
+    )
+    transmission_bounces: IntProperty(
+        name="Transmission",
+        description="Maximum number of transmission bounces",
+        min=0,
+        max=1024,
+        default=12,
+    )
     transparent_max_bounces: IntProperty(
         name="Transparent",
         description="Maximum number of transparent surfaces that a path passes",
         min=0,
         max=1024,
         default=8,
+    )
+    sample_clamp_direct: FloatProperty(
+        name="Clamp Direct",
+        description="The most that a contribution of direct light adds to a sample. Darkens the "
+        "picture to avoid fireflies (0 disables clamping)",
+        min=0.0,
+        default=0.0,
+    )
+    sample_clamp_indirect: FloatProperty(
+        name="Clamp Indirect",
+        description="The most that a contribution of indirect light adds to a sample. Darkens the "
+        "picture to avoid fireflies, and cuts caustics (0 disables clamping)",
+        min=0.0,
+        default=0.0,
     )
     integrator: EnumProperty(
         name="Integrator",
@@ -116,6 +154,12 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         max=10.0,
         default=1.5,
         subtype="PIXEL",
+    )
+    cycles_notice: BoolProperty(
+        name="Notice",
+        description="The settings were copied from Cycles, and nobody has said yet that they know",
+        default=False,
+        options={"HIDDEN"},
     )
     capture_path: StringProperty(
         name="Capture",

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
+from . import cycles_settings
+
 
 @dataclass(frozen=True)
 class Frame:
@@ -70,19 +72,28 @@ def render_settings(depsgraph) -> dict:
     scene = depsgraph.scene_eval
     render, janus = scene.render, scene.janus
     width, height = frame_size(render)
+
+    def shared(name):
+        return cycles_settings.value(scene, name)
+
     return {
         "width": width,
         "height": height,
         "crop": crop_window(render, width, height),
-        "samples": depsgraph.view_layer_eval.samples or janus.samples,
-        "seconds": janus.time_limit,
+        "samples": depsgraph.view_layer_eval.samples or shared("samples"),
+        "seconds": shared("time_limit"),
         "seed": janus.seed,
         "threads": render.threads if render.threads_mode == "FIXED" else 0,
-        "max_bounces": janus.max_bounces,
-        "transparent_max_bounces": janus.transparent_max_bounces,
+        "max_bounces": shared("max_bounces"),
+        "max_diffuse_bounces": shared("diffuse_bounces"),
+        "max_glossy_bounces": shared("glossy_bounces"),
+        "max_transmission_bounces": shared("transmission_bounces"),
+        "transparent_max_bounces": shared("transparent_max_bounces"),
+        "clamp_direct": janus.sample_clamp_direct,
+        "clamp_indirect": janus.sample_clamp_indirect,
         "integrator": janus.integrator.lower(),
-        "filter": janus.pixel_filter_type,
-        "filter_width": janus.filter_width,
+        "filter": shared("pixel_filter_type"),
+        "filter_width": shared("filter_width"),
         "light_paths": janus.light_paths,
         "connections": janus.connections,
         "adaptive_counts": janus.adaptive_counts,

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Visible things that Janus does not render yet: found here, named in the log, never fatal."""
 
+from . import cycles_settings
+
 # Cycles' defaults; anything else changes the picture.
 RAYS = ("camera", "diffuse", "glossy", "transmission", "shadow")
 
@@ -14,6 +16,8 @@ UNSUPPORTED_TYPES = {
 def check_scene(depsgraph, log) -> None:
     """What concerns the whole scene or view layer."""
     render = depsgraph.scene_eval.render
+    if notice := cycles_settings.notice(depsgraph.scene_eval):
+        log.info(notice)
     if render.use_motion_blur:
         log.warning("Motion blur is not supported yet")
     if render.use_multiview:

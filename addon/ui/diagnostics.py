@@ -4,6 +4,7 @@
 import bpy
 
 from .. import bridge, report
+from ..sync import cycles_settings
 from .engine_panels import JanusPanel
 
 ICONS = {"ERROR": "CANCEL", "WARNING": "ERROR", "INFO": "INFO"}
@@ -57,6 +58,23 @@ class JANUS_RENDER_PT_banner(JanusPanel, bpy.types.Panel):
         draw_text(box, self.text(context), "ERROR")
 
 
+class JANUS_RENDER_PT_notice(JanusPanel, bpy.types.Panel):
+    """Where the settings come from, until the user has read it."""
+
+    bl_label = ""
+    bl_context = "render"
+    bl_options = {"HIDE_HEADER"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and cycles_settings.notice(context.scene) != ""
+
+    def draw(self, context):
+        row = self.layout.box().row()
+        draw_text(row, cycles_settings.notice(context.scene), "INFO")
+        row.operator("janus.dismiss_notice", text="", icon="X", emboss=False)
+
+
 class JANUS_RENDER_PT_report(JanusPanel, bpy.types.Panel):
     bl_label = "Janus Report"
     bl_context = "render"
@@ -74,4 +92,4 @@ class JANUS_RENDER_PT_report(JanusPanel, bpy.types.Panel):
             self.layout.label(text=f"and {len(entries) - MAX_ENTRIES} more")
 
 
-CLASSES = (JANUS_RENDER_PT_banner, JANUS_RENDER_PT_report)
+CLASSES = (JANUS_RENDER_PT_banner, JANUS_RENDER_PT_notice, JANUS_RENDER_PT_report)

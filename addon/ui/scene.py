@@ -21,10 +21,35 @@ class JANUS_RENDER_PT_light_paths(JanusPanel, bpy.types.Panel):
     bl_label = "Light Paths"
     bl_context = "render"
 
+    def draw_header_preset(self, context):
+        self.layout.operator("janus.copy_settings_from_cycles", text="", icon="DUPLICATE")
+
     def draw(self, context):
-        column = self.column()
-        column.prop(context.scene.janus, "max_bounces", text="Max Bounces")
-        column.prop(context.scene.janus, "transparent_max_bounces")
+        pass
+
+
+class JANUS_RENDER_PT_light_paths_max_bounces(JanusPanel, bpy.types.Panel):
+    bl_label = "Max Bounces"
+    bl_parent_id = "JANUS_RENDER_PT_light_paths"
+
+    def draw(self, context):
+        janus = context.scene.janus
+        self.column().prop(janus, "max_bounces", text="Total")
+        column = self.column().column(align=True)
+        for kind in ("diffuse", "glossy", "transmission"):
+            column.prop(janus, f"{kind}_bounces")
+        self.column().prop(janus, "transparent_max_bounces")
+
+
+class JANUS_RENDER_PT_light_paths_clamping(JanusPanel, bpy.types.Panel):
+    bl_label = "Clamping"
+    bl_parent_id = "JANUS_RENDER_PT_light_paths"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column = self.column().column(align=True)
+        column.prop(context.scene.janus, "sample_clamp_direct", text="Direct Light")
+        column.prop(context.scene.janus, "sample_clamp_indirect", text="Indirect Light")
 
 
 class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
@@ -89,6 +114,8 @@ class JANUS_VIEWLAYER_PT_override(JanusPanel, bpy.types.Panel):
 CLASSES = (
     JANUS_RENDER_PT_sampling,
     JANUS_RENDER_PT_light_paths,
+    JANUS_RENDER_PT_light_paths_max_bounces,
+    JANUS_RENDER_PT_light_paths_clamping,
     JANUS_RENDER_PT_bidirectional,
     JANUS_RENDER_PT_film,
     JANUS_RENDER_PT_performance,

@@ -64,6 +64,9 @@ def test_settings_reach_the_core(scene, fake_core):
     render.threads_mode, render.threads = "FIXED", 3
     render.film_transparent = True
     janus.samples, janus.time_limit, janus.seed, janus.max_bounces = 5, 60.0, 7, 4
+    janus.diffuse_bounces, janus.glossy_bounces, janus.transmission_bounces = 1, 2, 3
+    janus.transparent_max_bounces = 9
+    janus.sample_clamp_direct, janus.sample_clamp_indirect = 0.5, 10.0
     janus.integrator, janus.heuristic = "PT", "POWER"
     janus.light_paths, janus.connections = 0.5, 2.0
     janus.pixel_filter_type, janus.filter_width = "GAUSSIAN", 2.0
@@ -77,7 +80,12 @@ def test_settings_reach_the_core(scene, fake_core):
         "seed": 7,
         "threads": 3,
         "max_bounces": 4,
-        "transparent_max_bounces": 8,
+        "max_diffuse_bounces": 1,
+        "max_glossy_bounces": 2,
+        "max_transmission_bounces": 3,
+        "transparent_max_bounces": 9,
+        "clamp_direct": 0.5,
+        "clamp_indirect": 10.0,
         "integrator": "pt",
         "filter": "GAUSSIAN",
         "filter_width": 2.0,
@@ -96,7 +104,12 @@ def test_defaults(scene, fake_core):
         "samples": 64,
         "seconds": 0.0,
         "max_bounces": 12,
+        "max_diffuse_bounces": 4,
+        "max_glossy_bounces": 4,
+        "max_transmission_bounces": 12,
         "transparent_max_bounces": 8,
+        "clamp_direct": 0.0,
+        "clamp_indirect": 0.0,
         "integrator": "bdpt",
         "threads": 0,
     }

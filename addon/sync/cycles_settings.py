@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings that a file made for Cycles brings along.
+
+A setting that a file does not hold in Janus' own words has Cycles' value, whoever renders: nothing
+has to be written for that, so it works in background renders and from evaluated copies alike.
+Where files can be written, `adopt` makes the values Janus' own.
+"""
+
+# By name in scene.janus; the names in scene.cycles are the same.
+SHARED = (
+    "max_bounces",
+    "diffuse_bounces",
+    "glossy_bounces",
+    "transmission_bounces",
+    "transparent_max_bounces",
+    "pixel_filter_type",
+    "filter_width",
+    "samples",
+    "time_limit",
+)
+
+
+def value(scene, name: str):
+    """A setting of scene.janus, or Cycles' while the file has none."""
+    if not scene.janus.is_property_set(name):
+        return from_cycles(scene).get(name, getattr(scene.janus, name))
+    return getattr(scene.janus, name)
+
+
+def from_cycles(scene) -> dict:
+    """What Janus takes over from scene.cycles, by name in scene.janus. Empty without Cycles."""
+    cycles = getattr(scene, "cycles", None)
+    if cycles is None:
+        return {}
+    values = {name: getattr(cycles, name) for name in SHARED if hasattr(cycles, name)}
+    # Cycles' default is a ceiling for its adaptive sampling. Only a number that somebody chose is
+    # an answer to how many samples the picture needs.
+    if not cycles.is_property_set("samples"):
+        values.pop("samples", None)
+    return values
+
+
+def adopted(scene) -> bool:
+    """Does the file hold Janus' own values?"""
+    return all(scene.janus.is_property_set(name) for name in SHARED)
+
+
+def adopt(scene, again: bool = False) -> None:
+    """Writes Cycles' values into scene.janus: where there are none yet, or `again`, everywhere."""
+    values = from_cycles(scene)
+    for name in SHARED:
+        if again or not scene.janus.is_property_set(name):
+            setattr(scene.janus, name, values.get(name, getattr(scene.janus, name)))
+    scene.janus.cycles_notice = bool(values)
+
+
+def notice(scene) -> str:
+    """What the user has to know as long as the values are Cycles' and nobody has looked at them."""
+    if not from_cycles(scene) or (adopted(scene) and not scene.janus.cycles_notice):
+        return ""
+    text = "Bounces, pixel filter and samples are copied from Cycles"
+    left_out = _left_out(scene.cycles)
+    return f"{text}. Not copied, as it cuts caustics: {', '.join(left_out)}" if left_out else text
+
+
+def _left_out(cycles) -> list[str]:
+    found = []
+    for name, words in (
+        ("sample_clamp_direct", "Clamping of Direct Light"),
+        ("sample_clamp_indirect", "Clamping of Indirect Light"),
+        ("blur_glossy", "Filter Glossy"),
+    ):
+        number = getattr(cycles, name, 0.0)
+        if number > 0.0:
+            found.append(f"{words} {number:g}")
+    for name in ("reflective", "refractive"):
+        if not getattr(cycles, f"caustics_{name}", True):
+            found.append(f"{name.capitalize()} Caustics off")
+    return found
