@@ -35,11 +35,11 @@ class Commit {
     }
   }
 
-  void add_meshes(const std::map<std::string, MeshDesc>& meshes) {
+  void add_meshes(const std::map<std::string, std::shared_ptr<const MeshDesc>>& meshes) {
     for (const auto& [key, desc] : meshes) {
       cancel_.throw_if_cancelled();
       mesh_index_[key] = static_cast<uint32_t>(scene_.meshes.size());
-      scene_.meshes.emplace_back(key, desc, scene_.diagnostics);
+      scene_.meshes.emplace_back(key, *desc, scene_.diagnostics);
     }
   }
 

@@ -15,7 +15,9 @@ namespace janus {
 // key again replaces the item. One thread at a time.
 class SceneBuilder {
  public:
-  void set_mesh(const std::string& key, MeshDesc desc) { meshes_[key] = std::move(desc); }
+  void set_mesh(const std::string& key, MeshDesc desc) {
+    meshes_[key] = std::make_shared<const MeshDesc>(std::move(desc));
+  }
   void set_material(const std::string& key, MaterialDesc desc) {
     materials_[key] = std::move(desc);
   }
@@ -34,7 +36,8 @@ class SceneBuilder {
 
  private:
   // Ordered maps: the scene, and so the image, does not depend on the order of the calls.
-  std::map<std::string, MeshDesc> meshes_;
+  // Copies of a builder share the meshes, its heaviest part.
+  std::map<std::string, std::shared_ptr<const MeshDesc>> meshes_;
   std::map<std::string, MaterialDesc> materials_;
   std::map<std::string, ImageDesc> images_;
   std::map<std::string, InstanceDesc> instances_;
