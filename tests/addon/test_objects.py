@@ -199,6 +199,24 @@ def test_vertex_instancer_hides_itself(scene, export):
     assert "Parent" in export().by_name()
 
 
+def test_particles_are_instances_of_one_mesh(scene, export):
+    grain = add_square("Grain")
+    grain.hide_render = True  # the particles show it all the same
+    emitter = add_square("Emitter")
+    emitter.modifiers.new("Particles", "PARTICLE_SYSTEM")
+    settings = emitter.particle_systems[0].settings
+    settings.count, settings.frame_start, settings.frame_end = 7, 1.0, 1.0
+    settings.physics_type = "NO"
+    settings.render_type, settings.instance_object = "OBJECT", grain
+    emitter.show_instancer_for_render = False
+    scene.frame_set(10)
+    recorder = export()
+    assert [item["name"] for item in recorder.instances.values()] == ["Grain"] * 7
+    assert len(recorder.meshes) == 1
+    places = {tuple(item["transform"][:3, 3]) for item in recorder.instances.values()}
+    assert len(places) == 7
+
+
 def test_geometry_nodes_instances_carry_other_data(scene, export):
     """Instances made by nodes bear the maker's name: geometry must go by data."""
 
