@@ -22,7 +22,7 @@ from _measure import CapturedScene, Cycles, relative_variance, spread
 SIZE, BOUNCES = 256, 8
 CYCLES_SAMPLES = 8  # and four times as many
 VARIANCE_SAMPLES, VARIANCE_SIZE = 64, 96
-EASY = ("diffuse_box", "studio")
+EASY = ("diffuse_box", "two_lamps")
 PT = {"integrator": "pt"}
 BDPT = {
     "integrator": "bdpt",
