@@ -3,26 +3,43 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 import tempfile
+import time
+from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
 import janus_core
 import numpy as np
-from janus_core import capture
+from janus_core import capture, exr
 
 ROOT = Path(__file__).resolve().parents[2]
 FOREVER = 1 << 24  # samples, where time is the limit
 
 
-class CapturedScene:
-    """A scene of scenes/, exported once through Blender, rendered by the core alone."""
+@dataclass
+class Shot:
+    """A picture, [H, W, 3], and what it took: nothing that does not grow with the samples."""
 
-    def __init__(self, scene: str, size: int, bounces: int, threads: int) -> None:
-        self.arguments = [scene, "--resolution", f"{size}x{size}", "--max-bounces", str(bounces)]
-        self.arguments += ["--threads", str(threads)]
+    picture: np.ndarray
+    samples: float
+    seconds: float
+    cpu: float  # processor time of all threads, seconds
+
+
+class CapturedScene:
+    """A scene of scenes/, exported once through Blender, rendered by the core alone.
+
+    `bounces`: None for the scene's own.
+    """
+
+    def __init__(self, scene: str, size: int, bounces: int | None, threads: int) -> None:
+        self.arguments = [scene, "--resolution", f"{size}x{size}", "--threads", str(threads)]
+        if bounces is not None:
+            self.arguments += ["--max-bounces", str(bounces)]
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "scene.npz"
             command = [sys.executable, str(ROOT / "scenes" / "render.py"), *self.arguments]
@@ -40,6 +57,13 @@ class CapturedScene:
         session.start()
         session.finish()
         return session.snapshot("Combined"), session.stats()
+
+    def shot(self, seconds: float, **changes: object) -> Shot:
+        """A render of about that time."""
+        cpu = time.process_time()
+        picture, stats = self.render(samples=FOREVER, seconds=seconds, **changes)
+        cpu = time.process_time() - cpu
+        return Shot(picture[..., :3], stats["samples"], stats["seconds"], cpu)
 
     def speed(self, seconds: float, **changes: object) -> tuple[float, dict]:
         """(samples of all pixels per second, statistics) of a render of about that time."""
@@ -69,12 +93,27 @@ class Cycles:
         From the difference between two renders, so that what does not grow with the samples
         (export, BVH, kernels) is in neither side.
         """
-        short, long = self.seconds(samples), self.seconds(4 * samples)
+        short, long = (self.render(n)["seconds"] for n in (samples, 4 * samples))
         return 3 * samples * self._pixels / max(long - short, 1e-6)
 
-    def seconds(self, samples: int) -> float:
-        print(samples, file=self._process.stdin, flush=True)
-        return float(self._process.stdout.readline())
+    def render(
+        self, samples: int, seed: int = 0, guiding: bool = False, output: Path | None = None
+    ) -> dict:
+        """{"seconds": ..., "cpu": ...} of a render, export included; `output`: an .exr to write."""
+        wanted = {"samples": samples, "seed": seed, "guiding": guiding}
+        wanted["output"] = str(output) if output else None
+        print(json.dumps(wanted), file=self._process.stdin, flush=True)
+        return json.loads(self._process.stdout.readline())
+
+    def shot(self, samples: int, none: dict, seed: int, guiding: bool) -> Shot:
+        """A render of so many samples, at least 2; `none`: what a render of one sample takes."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "cycles.exr"
+            took = self.render(samples, seed, guiding, path)
+            picture = exr.read(str(path))[0][..., :3]
+        share = samples / (samples - 1)  # the difference is the time of all samples but one
+        seconds, cpu = (max(took[key] - none[key], 1e-3) * share for key in ("seconds", "cpu"))
+        return Shot(picture, samples, seconds, cpu)
 
     def close(self) -> None:
         self._process.stdin.close()

@@ -158,7 +158,7 @@ def peak_megabytes() -> float:
 
 
 if __name__ == "__main__":
-    sys.path.insert(0, str(ROOT))
+    sys.path[0] = str(ROOT)  # for this folder, where another module has the name `scenes`
     if sys.argv[1:2] == ["--child"]:
         case, what, *rest = sys.argv[2:]
         print(json.dumps(run_child(case, what, float(rest[0]) if rest else 0.0, *rest[1:])))

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Long renders that errors are measured against, with estimates of their own errors, on disk.
+
+Each of three renderers makes two pictures with seeds of their own. Half their difference is as
+large as the error of their mean, so that its relMSE is known without a better picture.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+
+import numpy as np
+from _measure import ROOT
+
+FOLDER = ROOT / "build" / "bench-references"
+KINDS = ("pt", "cycles", "bdpt")
+EPSILON, DROPPED = 0.01, 0.001
+# Squared differences have long tails: two pictures that differ by twice what their errors say
+# still agree.
+AGREE = 2.0
+
+
+def squared_errors(
+    picture: np.ndarray, reference: np.ndarray, scale: np.ndarray | None = None
+) -> np.ndarray:
+    """Per pixel (x - r)^2 / (r^2 + 0.01 m^2), the mean over channels; m: mean of the reference.
+
+    That is the usual relMSE with an epsilon of 0.01, for a picture exposed to a mean of 1.
+    `scale` stands for r in the denominator.
+    """
+    scale = reference if scale is None else scale
+    epsilon = EPSILON * scale.mean() ** 2
+    return np.mean((picture - reference) ** 2 / (scale**2 + epsilon), axis=2)
+
+
+def relative_error(
+    picture: np.ndarray, reference: np.ndarray, scale: np.ndarray | None = None
+) -> float:
+    """relMSE without the thousandth of the pixels where it is largest.
+
+    A single path that nobody can sample (a caustic seen in a mirror) can be larger than all other
+    errors together; what was left would tell nothing of the picture, and only who was lucky.
+    """
+    errors = np.sort(squared_errors(picture, reference, scale), axis=None)
+    return float(errors[: len(errors) - round(DROPPED * len(errors))].mean())
+
+
+@dataclass
+class Reference:
+    picture: np.ndarray
+    kind: str  # who made it
+    error: float  # its own relMSE
+    good: bool  # whether that is at most a tenth of what is measured
+
+
+class References:
+    """The pictures of one scene. `missing` says whether they have to be made (`add`) and saved."""
+
+    def __init__(self, scene: str, settings: dict) -> None:
+        code = [ROOT / "scenes" / f"{name}.py" for name in (scene, "kit", "props")]
+        text = repr(sorted(settings.items())).encode() + b"".join(p.read_bytes() for p in code)
+        self._path = FOLDER / f"{scene}-{hashlib.sha256(text).hexdigest()[:12]}.npz"
+        self._halves: dict[str, np.ndarray] = {}
+        self.missing = not self._path.exists()
+        if not self.missing:
+            with np.load(self._path) as file:
+                self._halves = {kind: file[kind] for kind in KINDS}
+
+    def add(self, kind: str, halves: list[np.ndarray]) -> None:
+        self._halves[kind] = np.array(halves, dtype=np.float64)
+
+    def save(self) -> None:
+        FOLDER.mkdir(parents=True, exist_ok=True)
+        np.savez_compressed(self._path, **self._halves)
+        self.missing = False
+
+    def picture(self, kind: str) -> np.ndarray:
+        return self._halves[kind].mean(axis=0)
+
+    def error(self, kind: str) -> float:
+        first, second = self._halves[kind]
+        return relative_error((first - second) / 2, np.zeros_like(first), self._scale())
+
+    def differ(self, one: str, other: str) -> tuple[float, float]:
+        """(relMSE between two renderers' pictures, what their own errors explain of it)."""
+        seen = relative_error(self.picture(one), self.picture(other), self._scale())
+        return seen, self.error(one) + self.error(other)
+
+    def _scale(self) -> np.ndarray:
+        """The brightness of pixels, without what only one of the renderers found by chance."""
+        return np.median([self.picture(kind) for kind in KINDS], axis=0)
+
+    def agree(self, one: str, other: str) -> bool:
+        seen, expected = self.differ(one, other)
+        return seen <= AGREE * expected
+
+    def choose(self, measured) -> Reference:
+        """pt and Cycles together if they agree and are good enough, otherwise bdpt.
+
+        `measured(picture)` is the smallest error that is to be measured against that picture.
+        """
+        weights = {kind: 1.0 / max(self.error(kind), 1e-12) for kind in ("pt", "cycles")}
+        total = sum(weights.values())
+        both = sum(self.picture(kind) * w for kind, w in weights.items()) / total
+        found = Reference(both, "pt + Cycles", 1.0 / total, 1.0 / total <= 0.1 * measured(both))
+        if found.good and self.agree("pt", "cycles"):
+            return found
+        own, error = self.picture("bdpt"), self.error("bdpt")
+        return Reference(own, "bdpt", error, error <= 0.1 * measured(own))

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Error at equal time on ten scenes: Janus beside Cycles; `./dev bench scenes`.
+
+Everything renders 128 x 128 pixels with two threads for eight seconds, with five seeds; bdpt finds
+its counts by itself, as in Blender. Cycles has its light tree on, and of its renders with and
+without path guiding the better ones count. All engines alternate, seed by seed, because a machine
+is never quiet.
+
+The error is relMSE, with the formula of _reference.py and without the thousandth of the pixels
+where it is largest, as mean over the seeds. A second table has that of all pixels, which tells
+little where some path is found by chance alone (a caustic behind glass): whoever is lucky enough
+never to find it wins.
+
+Export and building are in no engine's time. Janus has a clock of its own for that. Cycles renders
+a number of samples, and what a render of one sample takes is subtracted: its own time limit would
+only be looked at between batches of samples that grow, and would hide how long the last one was.
+No engine ends exactly on time: an error is scaled by (time taken) / (time given), as that of
+independent samples. With `--clock cpu` the time is that of the processors over the number of
+threads, for a machine that others use as well.
+
+Floors are what the project wants; a number below its floor is marked and is no failure.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from _measure import CapturedScene, Cycles, Shot
+from _reference import KINDS, Reference, References, relative_error, squared_errors
+
+SCENES = (
+    *("hero", "hidden_light", "metal_ring", "ajar_door", "pool"),
+    *("many_lights", "hdri_interior", "cornell_box", "studio", "sunlit_exterior"),
+)
+HARD = ("hidden_light", "hero", "metal_ring")  # at least 3 times better than Cycles
+EASY = ("studio", "sunlit_exterior")  # at most 1.1 times worse than Cycles and than our own pt
+HARD_FLOOR, EASY_FLOOR = 3.0, 1.1
+ENGINES = ("bdpt", "pt", "cycles", "guided")
+FIRST_SEED = {"bdpt": 100, "pt": 200, "cycles": 300, "guided": 400, "reference": 500}
+
+
+@dataclass
+class Row:
+    """A scene. Errors by engine, their standard errors (relative), and rates in M samples/s.
+
+    `whole`: errors with all pixels.
+    """
+
+    scene: str
+    reference: Reference
+    errors: dict[str, float]
+    whole: dict[str, float]
+    spreads: dict[str, float]
+    rates: dict[str, float]
+    notes: list[str]
+
+    @property
+    def peer(self) -> str:
+        return min(("cycles", "guided"), key=self.errors.__getitem__)
+
+    def ratio(self, engine: str) -> tuple[float, float]:
+        """(error over that of bdpt, its standard error): above 1, bdpt is better."""
+        ratio = self.errors[engine] / self.errors["bdpt"]
+        return ratio, ratio * float(np.hypot(self.spreads[engine], self.spreads["bdpt"]))
+
+    def floors(self) -> list[tuple[str, bool]]:
+        if self.scene in HARD:
+            return [(f"{HARD_FLOOR:g} x Cycles", self.ratio(self.peer)[0] >= HARD_FLOOR)]
+        if self.scene in EASY:
+            return [
+                (f"1/{EASY_FLOOR:g} of {name}", self.ratio(engine)[0] >= 1.0 / EASY_FLOOR)
+                for engine, name in ((self.peer, "Cycles"), ("pt", "pt"))
+            ]
+        return []
+
+
+class Bench:
+    """One scene in all engines."""
+
+    def __init__(self, scene: str, options: argparse.Namespace, say) -> None:
+        self.name, self.options, self.say = scene, options, say
+        self.captured = CapturedScene(scene, options.size, None, options.threads)
+        self.cycles = Cycles(self.captured)
+        for guiding in (False, True):  # kernels load
+            self.cycles.render(1, 0, guiding)
+        self._calibrated: dict[bool, tuple[dict, float]] = {}
+
+    def close(self) -> None:
+        self.cycles.close()
+
+    def shot(self, engine: str, seconds: float, seed: int) -> Shot:
+        if engine in ("bdpt", "pt"):
+            return self.captured.shot(seconds, integrator=engine, seed=seed)
+        guiding = engine == "guided"
+        if guiding not in self._calibrated:
+            self._calibrate(guiding)
+        none, rate = self._calibrated[guiding]
+        shot = self.cycles.shot(max(round(rate * seconds), 2), none, seed, guiding)
+        # The next one is as long as this one says: the machine may be another than a while ago.
+        self._calibrated[guiding] = (none, shot.samples / shot.seconds)
+        return shot
+
+    def _calibrate(self, guiding: bool) -> None:
+        """What a render of one sample takes, and how many more fit into a second."""
+        runs = [self.cycles.render(1, 0, guiding) for _ in range(3)]
+        none = {key: float(np.median([run[key] for run in runs])) for key in runs[0]}
+        samples, seconds = 4, 0.0
+        while seconds < 0.15 * self.options.seconds:
+            samples *= 2
+            seconds = self.cycles.render(samples, 0, guiding)["seconds"] - none["seconds"]
+        self._calibrated[guiding] = (none, (samples - 1) / seconds)
+
+    def references(self) -> References:
+        options = self.options
+        settings = {"size": options.size, "seconds": options.reference_seconds}
+        references = References(self.name, settings)
+        if references.missing:
+            for kind in KINDS:
+                self.say(f"{self.name}: reference, {kind}")
+                seed = FIRST_SEED["reference"] + 10 * KINDS.index(kind)
+                half = options.reference_seconds / 2
+                references.add(kind, [self.shot(kind, half, seed + i).picture for i in (0, 1)])
+            references.save()
+        return references
+
+    def run(self) -> Row:
+        references = self.references()
+        shots: dict[str, list[Shot]] = {engine: [] for engine in ENGINES}
+        for turn in range(self.options.seeds):
+            self.say(f"{self.name}: seed {turn + 1} of {self.options.seeds}")
+            for engine in ENGINES:
+                seed = FIRST_SEED[engine] + turn
+                shots[engine].append(self.shot(engine, self.options.seconds, seed))
+
+        def errors(picture: np.ndarray, of=relative_error) -> dict[str, np.ndarray]:
+            """By engine, of each seed, as if exactly the time given had been taken."""
+            return {
+                engine: np.array([of(s.picture, picture) * self.taken(s) for s in taken])
+                for engine, taken in shots.items()
+            }
+
+        reference = references.choose(
+            lambda picture: min(found.mean() for found in errors(picture).values())
+        )
+        found = errors(reference.picture)
+        whole = errors(reference.picture, lambda *pictures: squared_errors(*pictures).mean())
+        means = lambda all_: {engine: float(v.mean()) for engine, v in all_.items()}  # noqa: E731
+        spreads = {
+            engine: float(values.std(ddof=1) / np.sqrt(len(values)) / values.mean())
+            for engine, values in found.items()
+        }
+        rates = {engine: self.rate(taken) for engine, taken in shots.items()}
+        notes = self.notes(reference, references)
+        return Row(self.name, reference, means(found), means(whole), spreads, rates, notes)
+
+    def rate(self, shots: list[Shot]) -> float:
+        samples = self.options.size**2 * sum(shot.samples for shot in shots)
+        return 1e-6 * samples / sum(self.clock(shot) for shot in shots)
+
+    def clock(self, shot: Shot) -> float:
+        return shot.cpu / self.options.threads if self.options.clock == "cpu" else shot.seconds
+
+    def taken(self, shot: Shot) -> float:
+        return self.clock(shot) / self.options.seconds
+
+    def notes(self, reference: Reference, references: References) -> list[str]:
+        notes = []
+        if not reference.good:
+            notes.append("the reference's own error is more than a tenth of the smallest one")
+        for one, other in (("pt", "cycles"), ("bdpt", "pt"), ("bdpt", "cycles")):
+            if not references.agree(one, other):
+                seen, expected = references.differ(one, other)
+                notes.append(
+                    f"references of {one} and {other} differ by {seen:.2g}, expected {expected:.2g}"
+                )
+        return notes
+
+
+def main() -> None:
+    options = arguments()
+    say = lambda text: print(f"  {text} ...", file=sys.stderr, flush=True)  # noqa: E731
+    rows = []
+    for scene in options.scenes:
+        bench = Bench(scene, options, say)
+        try:
+            rows.append(bench.run())
+        finally:
+            bench.close()
+    show(rows, options)
+    if options.json:
+        result = {"settings": {**vars(options), "json": None}, "rows": [plain(r) for r in rows]}
+        options.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="./dev bench scenes", description=__doc__)
+    add = parser.add_argument
+    add("--scenes", nargs="+", default=SCENES, metavar="NAME", help="default: all ten")
+    add("--seconds", type=float, default=8.0, metavar="T", help="of each render, default: 8")
+    add("--seeds", type=int, default=5, metavar="N", help="default: 5, at least 2")
+    add("--threads", type=int, default=2, metavar="N", help="default: 2")
+    add("--size", type=int, default=128, metavar="N", help="pixels of a side, default: 128")
+    add(
+        *("--reference-seconds", "-r"),
+        **dict(type=float, default=240.0, metavar="T"),
+        help="for each of three renderers, once: build/bench-references keeps them; default: 240",
+    )
+    add("--clock", choices=("wall", "cpu"), default="wall", help="default: wall")
+    add("--json", type=Path, metavar="FILE", help="write the numbers there too")
+    options = parser.parse_args()
+    if options.seeds < 2:
+        parser.error("--seeds must be 2 or more")
+    return options
+
+
+def show(rows: list[Row], options: argparse.Namespace) -> None:
+    print(f"\nrelMSE after {options.seconds:g} s ({options.clock} clock), ", end="")
+    print(f"{options.size} x {options.size}, {options.threads} threads, {options.seeds} seeds\n")
+    line = "{:<16} {:>9} {:>9} {:>9} {:>9}  {:>15} {:>15}  {}"
+    titles = ("scene", "bdpt", "pt", "Cycles", "guided", "Cycles / bdpt", "pt / bdpt", "floors")
+    print(line.format(*titles))
+    for row in rows:
+        verdicts = [f"{name}: {'PASS' if good else 'FAIL'}" for name, good in row.floors()]
+        ratios = ["{:.2f} +- {:.2f}".format(*row.ratio(engine)) for engine in (row.peer, "pt")]
+        errors = [f"{row.errors[engine]:.2e}" for engine in ENGINES]
+        print(line.format(row.scene, *errors, *ratios, ", ".join(verdicts)).rstrip())
+    print("\nrelMSE of all pixels")
+    for row in rows:
+        errors = [f"{row.whole[engine]:.2e}" for engine in ENGINES]
+        print(line.format(row.scene, *errors, "", "", "").rstrip())
+    print("\nM samples/s, and the reference")
+    for row in rows:
+        rates = [f"{row.rates[engine]:.3f}" for engine in ENGINES]
+        reference = f"{row.reference.kind}, its own relMSE {row.reference.error:.1e}"
+        print(line.format(row.scene, *rates, "", "", "").rstrip(), " ", reference)
+        for note in row.notes:
+            print(f"    {note}")
+
+
+def plain(row: Row) -> dict:
+    """A row as JSON, without the picture."""
+    reference = {**asdict(row.reference), "picture": None}
+    return {**asdict(row), "reference": reference, "peer": row.peer, "floors": row.floors()}
+
+
+if __name__ == "__main__":
+    main()
