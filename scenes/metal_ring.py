@@ -38,12 +38,8 @@ def build(scene: bpy.types.Scene) -> None:
     kit.view(scene, "AgX", "AgX - Medium High Contrast")
     kit.world(scene, (0.30, 0.42, 0.60), 0.2)
 
-    gold = kit.shader(
-        "Gold", "BsdfAnisotropic", "GGX", Color=(1.0, 0.70, 0.28, 1.0), Roughness=0.04
-    )
-    rose = kit.shader(
-        "Rose gold", "BsdfAnisotropic", "GGX", Color=(0.96, 0.60, 0.44, 1.0), Roughness=0.04
-    )
+    gold = kit.metal("Gold", (1.0, 0.70, 0.28))
+    rose = kit.metal("Rose gold", (0.96, 0.60, 0.44))
     table = kit.diffuse("Table", (0.44, 0.36, 0.30))
     kit.quad(scene, "Table", [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], table)
 
@@ -54,8 +50,5 @@ def build(scene: bpy.types.Scene) -> None:
     props.place(small, (0.040, -0.014, 0.0178), 62.0, 47.0)
 
     lamp = (0.18, 0.15, 0.19)
-    props.lamp(
-        *(scene, "Lamp", "SPOT", lamp, 6.0, (1.0, 0.90, 0.76), (0.0, 0.0, 0.0)),
-        **dict(shadow_soft_size=0.005, spot_size=math.radians(42), spot_blend=1.0),
-    )
+    kit.area_light(scene, "Lamp", lamp, (0.0, 0.0, 0.0), (0.01, 0.01), 2.6, (1.0, 0.90, 0.76))
     kit.camera(scene, (-0.03, -0.20, 0.17), (0.006, -0.002, 0.002), lens=62.0)

@@ -76,6 +76,7 @@ def render_settings(depsgraph) -> dict:
     def shared(name):
         return cycles_settings.value(scene, name)
 
+    filter_type = shared("pixel_filter_type")
     return {
         "width": width,
         "height": height,
@@ -92,8 +93,9 @@ def render_settings(depsgraph) -> dict:
         "clamp_direct": janus.sample_clamp_direct,
         "clamp_indirect": janus.sample_clamp_indirect,
         "integrator": janus.integrator.lower(),
-        "filter": shared("pixel_filter_type"),
-        "filter_width": shared("filter_width"),
+        "filter": filter_type,
+        # A box has no width to choose in Cycles: the panel hides the setting, which has no effect.
+        "filter_width": 1.0 if filter_type == "BOX" else shared("filter_width"),
         "light_paths": janus.light_paths,
         "connections": janus.connections,
         "adaptive_counts": janus.adaptive_counts,

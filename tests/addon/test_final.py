@@ -97,6 +97,12 @@ def test_settings_reach_the_core(scene, fake_core):
     }
 
 
+def test_the_width_of_a_box_filter_is_one_pixel_as_in_cycles(scene, fake_core):
+    scene.janus.pixel_filter_type, scene.janus.filter_width = "BOX", 2.0
+    bpy.ops.render.render()
+    assert fake_core.settings.filter_width == 1.0
+
+
 def test_defaults(scene, fake_core):
     bpy.ops.render.render()
     settings = vars(fake_core.settings)

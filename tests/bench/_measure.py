@@ -33,13 +33,22 @@ class Shot:
 class CapturedScene:
     """A scene of scenes/, exported once through Blender, rendered by the core alone.
 
-    `bounces`: None for the scene's own.
+    `bounces` and `filter_`: None for the scene's own.
     """
 
-    def __init__(self, scene: str, size: int, bounces: int | None, threads: int) -> None:
+    def __init__(
+        self,
+        scene: str,
+        size: int,
+        bounces: int | None,
+        threads: int,
+        filter_: str | None = None,
+    ) -> None:
         self.arguments = [scene, "--resolution", f"{size}x{size}", "--threads", str(threads)]
         if bounces is not None:
             self.arguments += ["--max-bounces", str(bounces)]
+        if filter_ is not None:
+            self.arguments += ["--filter", filter_]
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "scene.npz"
             command = [sys.executable, str(ROOT / "scenes" / "render.py"), *self.arguments]

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Error at equal time on ten scenes: Janus beside Cycles; `./dev bench scenes`.
 
-Everything renders 128 x 128 pixels with two threads for eight seconds, with five seeds; bdpt finds
+Everything renders 128 x 128 pixels with two threads for eight seconds, with five seeds and a box
+filter, which every renderer has; bdpt finds
 its counts by itself, as in Blender. Cycles has its light tree on, and of its renders with and
 without path guiding the better ones count. All engines alternate, seed by seed, because a machine
 is never quiet.
@@ -84,7 +85,7 @@ class Bench:
 
     def __init__(self, scene: str, options: argparse.Namespace, say) -> None:
         self.name, self.options, self.say = scene, options, say
-        self.captured = CapturedScene(scene, options.size, None, options.threads)
+        self.captured = CapturedScene(scene, options.size, None, options.threads, "box")
         self.cycles = Cycles(self.captured)
         for guiding in (False, True):  # kernels load
             self.cycles.render(1, 0, guiding)
@@ -117,7 +118,7 @@ class Bench:
 
     def references(self) -> References:
         options = self.options
-        settings = {"size": options.size, "seconds": options.reference_seconds}
+        settings = {"size": options.size, "seconds": options.reference_seconds, "filter": "box"}
         references = References(self.name, settings)
         if references.missing:
             for kind in KINDS:

@@ -29,8 +29,8 @@ double shape(FilterType type, double x, double width) {
 }  // namespace
 
 Filter::Filter(FilterType type, float width) {
-  // Cycles' filter width is the width for Box, and the support is 3 (Gaussian) or 2
-  // (Blackman-Harris) times that. A box of width 0 would be a delta, which splats cannot be.
+  // Cycles' filter width is a third (Gaussian) or a half (Blackman-Harris) of the support.
+  // A box of width 0 would be a delta, which splats cannot be.
   width = std::max(width, 0.01f);
   const float support = type == FilterType::Box        ? width
                         : type == FilterType::Gaussian ? 3.0f * width
