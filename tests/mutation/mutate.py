@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Does the suite notice the classic mistakes of light transport? `./dev mutate [NAME...]`.
 
-Each mistake of mistakes.py is made in a copy of the tree (build/mutation), which is built and
+Each mistake of mistakes/ is made in a copy of the tree (build/mutation), which is built and
 tested; at least one of the chosen tests must fail. First the copy as it is must pass all of them.
 
 Results: red (noticed), GREEN (survived: a test is missing), STALE (the text to replace is not
-there exactly once any more: adapt mistakes.py), BROKEN (it does not compile). All but red are
+there exactly once any more: adapt mistakes/), BROKEN (it does not compile). All but red are
 failures, and the exit code is 1.
 """
 

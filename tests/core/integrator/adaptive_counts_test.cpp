@@ -104,12 +104,29 @@ TEST(AdaptiveCounts, WorldOverABallNeedsNoLightPaths) {
   EXPECT_EQ(chosen(kit.world(Rgb(1.0f))), (Effort{0, 0}));
 }
 
+// A lamp in a shade that is open to the ceiling: all of the light is indirect.
+SceneKit hidden_light() {
+  return room()
+      .add("shade", cuboid({-0.15f, -0.15f, 0.55f}, {0.15f, 0.15f, 0.57f}), diffuse(Rgb(0.5f)))
+      .light("l", area_light({0, 0, 0.58f}, {0, 0, 1}, 0.2f, 20));
+}
+
 TEST(AdaptiveCounts, HiddenLightNeedsLightPaths) {
-  // A lamp in a shade that is open to the ceiling: all of the light is indirect.
-  SceneKit kit = room();
-  kit.add("shade", cuboid({-0.15f, -0.15f, 0.55f}, {0.15f, 0.15f, 0.57f}), diffuse(Rgb(0.5f)));
-  kit.light("l", area_light({0, 0, 0.58f}, {0, 0, 1}, 0.2f, 20));
-  EXPECT_GT(chosen(kit).light_paths, 0);
+  EXPECT_GT(chosen(hidden_light()).light_paths, 0);
+}
+
+// Weights and estimates follow the counts together.
+TEST(AdaptiveCounts, ChangeNoExpectation) {
+  const SceneKit kit = hidden_light();
+  const Effort effort = chosen(kit);
+  EXPECT_NE(effort.light_paths, 1.0f);
+  EXPECT_NE(effort.light_paths, 0.0f);
+  const auto scene = kit.build();
+  RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(64));
+  RenderSettings adaptive = settings;
+  adaptive.adaptive_counts = true;
+  adaptive.seed = 100;
+  expect_agreement(quarters(scene, settings), quarters(scene, adaptive));
 }
 
 TEST(AdaptiveCounts, CausticOfAPointIsNeverGivenUp) {

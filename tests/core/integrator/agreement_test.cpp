@@ -63,6 +63,16 @@ const AgreementScene kScenes[] = {
            .light("l", area_light({0, 0, 0.95f}, {0, 0, 0}, 0.9f, 20));
      },
      false, 64},
+    {"leaning_mirror",  // out of the picture; all of its light comes by way of the mirror
+     [] {
+       return SceneKit()
+           .add("floor", plane(3, 3), diffuse(Rgb(0.8f)), translation({0, 0, -1}))
+           .add("mirror", leaning(plane(1.5f, 1.5f), {-0.5f, 0, 0.87f}), mirror(Rgb(0.9f)),
+                translation({1, 0, 0}) * rotation({0, 1, 0}, -0.5f * kPi))
+           .light("l", area_light({-1, 0, 0.2f}, {1, 0, 0.2f}, 0.8f, 20, 2.0f))
+           .camera({0, 0, 2}, {0, 0, -1}, 0.3f);
+     },
+     true, 48},
     {"mixture",  // delta and smooth lobes at one point
      [] {
        return room()

@@ -20,9 +20,11 @@ TEST(Clamp, LimitsTheMeanOfTheChannels) {
   EXPECT_EQ(off(Rgb(1e30f), 3), Rgb(1e30f));
 }
 
+SceneKit lit_box() { return open_box().light("l", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 60)); }
+
 // No sample holds more than the limit for each of its contributions: here one per path length.
 TEST(Clamp, BoundsEveryIntegrator) {
-  const auto scene = open_box().light("l", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 60)).build();
+  const auto scene = lit_box().build();
   for (const IntegratorType integrator :
        {IntegratorType::PathTracer, IntegratorType::LightTracer, IntegratorType::Bdpt}) {
     SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator));
@@ -40,6 +42,54 @@ TEST(Clamp, BoundsEveryIntegrator) {
     EXPECT_LT(clamped, 0.7 * direct);
     EXPECT_GT(clamped, 0.01 * direct);
   }
+}
+
+// With weights, no contribution is larger than the lamp seen by way of surfaces that reflect less
+// than they get: a limit of its radiance, P / (pi A), cuts nothing. Single techniques know no
+// bounds. (Roulette makes contributions larger.)
+TEST(Clamp, ActsOnWeightedContributions) {
+  constexpr float kSize = 1.8f, kWatts = 60.0f;
+  const auto scene =
+      open_box().light("l", area_light({0, 0, 0.9f}, {0, 0, 0}, kSize, kWatts)).build();
+  RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(4));
+  settings.roulette = false;
+  const Image open = render(scene, settings);
+  settings.clamp_direct = settings.clamp_indirect = 1.001f * kWatts / (kPi * kSize * kSize);
+  EXPECT_EQ(open.pixels, render(scene, settings).pixels);
+  settings.technique = Technique{2, 2};
+  const Image cut = render(scene, settings);
+  settings.clamp_direct = settings.clamp_indirect = 0.0f;
+  EXPECT_NE(cut.pixels, render(scene, settings).pixels);
+}
+
+TEST(Clamp, BoundsEveryTechnique) {
+  const auto scene = lit_box().build();
+  for (const int edges : {2, 3}) {
+    for (int s = 0; s <= edges; ++s) {
+      SCOPED_TRACE(::testing::Message() << "s = " << s << ", t = " << edges + 1 - s);
+      RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(4));
+      settings.technique = Technique{s, edges + 1 - s};
+      const double open = quarters(scene, settings)[0].mean();
+      (edges == 2 ? settings.clamp_direct : settings.clamp_indirect) = 1e-4f;
+      const double cut = quarters(scene, settings)[0].mean();
+      EXPECT_LT(cut, 0.1 * open);
+      EXPECT_GT(cut, 0.0);
+    }
+  }
+}
+
+// Roulette on contributions makes fewer of them larger, but not what a limit leaves of them. The
+// limit is half of what they may be made, a tenth of the picture. (Up to three edges walks play
+// none.)
+TEST(Clamp, RouletteOnContributionsChangesNoExpectation) {
+  const auto scene = lit_box().build();
+  RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(64));
+  settings.max_bounces = 1;
+  settings.clamp_indirect = static_cast<float>(0.05 * quarters(scene, settings, 2)[0].mean());
+  RenderSettings without = settings;
+  without.roulette = false;
+  without.seed = 50;
+  expect_agreement(quarters(scene, settings), quarters(scene, without));
 }
 
 // A path tracer's sample with one contribution: min(value, limit) on average.

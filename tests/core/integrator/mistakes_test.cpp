@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Scenes and settings in which mistakes show that the other tests were seen to miss (tests/mutation
-// makes them): few light paths in a pass, crossings of transparent surfaces, many lights.
+// makes them): few light paths in a pass, crossings of transparent surfaces, many lights, small
+// sizes.
 #include "support/pictures.h"
 #include "support/scene_kit.h"
 
 namespace janus::test {
 namespace {
 
-void expect_as_path_traced(const SceneKit& kit, RenderSettings settings, int reference) {
+void expect_as_path_traced(const SceneKit& kit, RenderSettings settings, int reference,
+                           double tolerance = 0.02) {
   const auto scene = kit.build();
   EXPECT_TRUE(scene->diagnostics.empty());
   RenderSettings pt = settings;
   pt.integrator = IntegratorType::PathTracer;
   pt.samples = samples(reference);
-  expect_agreement(quarters(scene, settings), quarters(scene, pt));
+  expect_agreement(quarters(scene, settings), quarters(scene, pt), tolerance);
 }
 
 SceneKit lit_box() { return open_box().light("l", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 20)); }
@@ -25,6 +27,31 @@ TEST(Mistakes, AHandfulOfLightPathsPerPass) {
   settings.light_paths = 2.0f / 256.0f;
   settings.connections = 4.0f;
   expect_as_path_traced(lit_box(), settings, 160);
+}
+
+// Two cells with a lamp each, and one pixel that sees both. What the camera path and the light path
+// have in common shows in full: were the choice of the lamp that of the cell, the joins between
+// them would count twice, or never.
+TEST(Mistakes, OneLightPathAndOneCameraPath) {
+  SceneKit kit = open_box();
+  kit.add("wall", cuboid({-0.05f, -1, -1}, {0.05f, 1, 1}), diffuse(Rgb(0.5f)));
+  for (const float x : {-0.5f, 0.5f}) {
+    kit.light(x < 0 ? "a" : "b", area_light({x, 0, 0.9f}, {x, 0, 0}, 0.2f, 20));
+  }
+  RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(8192));
+  settings.width = settings.height = settings.threads = 1;
+  settings.connections = 8.0f;
+  expect_as_path_traced(kit, settings, 16384, 0.05);
+}
+
+// Walls, floor and ceiling 10 cm apart: short connections count as much as long ones.
+TEST(Mistakes, ADollsHouse) {
+  const auto size = scaling(vec3(0.05f));
+  SceneKit kit;
+  kit.add("box", cuboid(vec3(-1), vec3(1), true), diffuse(Rgb(0.8f)), size)
+      .add("lamp", plane(0.5f, 0.5f), emission(Rgb(1), 5), size * translation({0, 0, 0.8f}))
+      .camera({0, -0.16f, 0}, {0, 0, 0}, 0.42f);
+  expect_as_path_traced(kit, small_picture(IntegratorType::Bdpt, samples(32)), 96);
 }
 
 // Panes that let a part of the light pass, across all kinds of edges of the paths.

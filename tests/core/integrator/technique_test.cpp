@@ -94,5 +94,59 @@ TEST_P(SingleTechniques, AgreeForEachPathLength) {
 INSTANTIATE_TEST_SUITE_P(Scenes, SingleTechniques, ::testing::ValuesIn(kCases),
                          [](const auto& info) { return std::string(info.param.name); });
 
+// --- Next event estimation, a connection and a splat, where it is hard for them ------------------
+
+void expect_agreement_over_three_edges(const SceneKit& kit) {
+  const auto scene = kit.build();
+  std::vector<Mean> reference;
+  for (int s = 1; s <= 3; ++s) {
+    RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(64));
+    settings.technique = Technique{s, 4 - s};
+    settings.seed = 100 * s;
+    SCOPED_TRACE(::testing::Message() << "s = " << s);
+    const auto found = quarters(scene, settings);
+    if (s == 1) {
+      reference = found;
+    } else {
+      expect_agreement(found, reference, 0.05);
+    }
+  }
+}
+
+// By 35 degrees, away from the lamp on one surface and towards it on the other: without the factor
+// of the adjoint BSDF, a light path's vertex is up to twice as bright or as dark.
+TEST(TechniquesOfThreeEdges, LeaningNormals) {
+  const float lean = std::tan(0.6f);
+  expect_agreement_over_three_edges(
+      SceneKit()
+          .add("floor", leaning(plane(4, 4), {-lean, 0, 1}), diffuse(Rgb(0.8f, 0.7f, 0.6f)),
+               translation({0, 0, -1}))
+          .add("ceiling", leaning(plane(4, 4), {-lean, 0, 1}), diffuse(Rgb(0.6f, 0.7f, 0.8f)),
+               translation({0.1f, 0, 1.2f}) * rotation({1, 0, 0}, 3.0f))
+          .light("l", area_light({1.6f, 0, 0.1f}, {0, 0, 0}, 1.0f, 30))
+          .camera({0, -2.6f, 0.8f}, {0, 0.2f, -0.9f}, 0.7f));
+}
+
+// A hundred metres from the origin, surfaces a centimetre apart are known to a thousandth of their
+// distance: shadow rays must keep off both of them.
+TEST(TechniquesOfThreeEdges, CloseSurfacesFarFromTheOrigin) {
+  const mat4 place = translation({70, -90, 40}) * scaling(vec3(0.01f));
+  CameraDesc camera;
+  camera.name = "Camera";
+  camera.transform =
+      look_at(vec3(place * vec4(0, -2.6f, 0.8f, 1)), vec3(place * vec4(0, 0.2f, -0.9f, 1)));
+  camera.left = camera.bottom = -0.7f;
+  camera.right = camera.top = 0.7f;
+  camera.clip_start = 1e-4f;
+  SceneKit kit;
+  kit.add("floor", plane(4, 4), diffuse(Rgb(0.8f)), place * translation({0, 0, -1}))
+      .add("ceiling", plane(4, 4), diffuse(Rgb(0.7f)),
+           place * translation({0.1f, 0, 1.2f}) * rotation({1, 0, 0}, 3.0f))
+      .add("lamp", plane(1, 1), emission(Rgb(1), 8),
+           place * translation({1.7f, 0.2f, 0.2f}) * rotation({0, 1, 0}, -1.2f));
+  kit.builder.set_camera(camera);
+  expect_agreement_over_three_edges(kit);
+}
+
 }  // namespace
 }  // namespace janus::test

@@ -122,6 +122,12 @@ inline MeshDesc ball(float radius, int segments = 16, bool smooth = false) {
   return mesh;
 }
 
+// The mesh with one shading normal everywhere.
+inline MeshDesc leaning(MeshDesc mesh, vec3 normal) {
+  mesh.vertex_normals.assign(mesh.positions.size(), normalize(normal));
+  return mesh;
+}
+
 // --- Transforms ---
 
 inline mat4 translation(vec3 t) {

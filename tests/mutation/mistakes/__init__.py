@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The classic mistakes of bidirectional path tracing, by kind."""
+
+from __future__ import annotations
+
+from mistakes.densities import DENSITIES
+from mistakes.film import FILM_AND_SAMPLES
+from mistakes.paths import PATHS
+from mistakes.values import VALUES
+
+MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES

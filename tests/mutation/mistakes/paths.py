@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which paths there are."""
+
+from __future__ import annotations
+
+from mistake import one
+
+from mistakes.sources import BDPT, CAMERAS, CAPS, CONNECT, CROSSINGS, PICTURES, SUBPATH
+
+PATHS = (
+    one(
+        "separate-caps",
+        2,
+        "subpaths have caps of their own, the path has none",
+        PICTURES,
+        BDPT,
+        "l.edges + v.edges + 1 > settings_.walk.max_edges",
+        "l.edges > settings_.walk.max_edges",
+    ),
+    one(
+        "crossings-per-subpath",
+        2,
+        "the cap on transparent surfaces counts the camera side only",
+        CROSSINGS,
+        CONNECT,
+        "c.crossings + l.crossings",
+        "c.crossings",
+    ),
+    one(
+        "short-connections-skipped",
+        3,
+        "connections too short to be trusted are left out, with their weights left in",
+        PICTURES,
+        CONNECT,
+        "if (!(d2 > 0.0f)) {",
+        "if (!(d2 > 0.04f)) {",
+    ),
+    one(
+        "mixtures-not-cached",
+        12,
+        "surfaces with a delta lobe among others are not connected to",
+        PICTURES,
+        BDPT,
+        "if (v.bsdf().connectible() && v.edges + 2 <=",
+        "if (v.bsdf().connectible() && v.bsdf().lobes().size() == 1 && v.edges + 2 <=",
+    ),
+    one(
+        "shadow-ray-epsilon",
+        21,
+        "the far end of a connection's shadow ray lies in the surface",
+        PICTURES,
+        CONNECT,
+        "offset_origin(l.p, l.ng, l.offset, -wi)",
+        "l.p",
+    ),
+    one(
+        "bounce-caps-per-subpath",
+        2,
+        "limits of bounces by label count the camera side only",
+        CAPS,
+        CONNECT,
+        "const BounceCounts bounces = l.bounces + c.bounces;",
+        "const BounceCounts bounces = c.bounces;",
+    ),
+    one(
+        "direct-light-is-a-bounce",
+        2,
+        "splats count z_1, next to the light, among the bounces",
+        CAPS,
+        CONNECT,
+        "rules.caps_bind(v.edges + 1) && v.edges > 1",
+        "rules.caps_bind(v.edges + 1)",
+    ),
+    one(
+        "connections-through-surfaces-skipped",
+        3,
+        "no connection to the far side of a translucent surface, with the weights left as they are",
+        f"{PICTURES}:{CAPS}",
+        CONNECT,
+        "(cos_light * dot(l.wi, l.ng) <= 0.0f && !l.transmits)",
+        "cos_light * dot(l.wi, l.ng) <= 0.0f",
+    ),
+    one(
+        "direct-light-not-splatted",
+        3,
+        "splats begin at z_2, because z_1 is next event estimation's business",
+        PICTURES,
+        BDPT,
+        "if (!s) { return; }",
+        "if (!s || v.edges == 1) { return; }",
+    ),
+    one(
+        "invisible-lamps-not-hit",
+        3,
+        "what the camera does not see is not hit on longer paths either",
+        CAMERAS,
+        SUBPATH,
+        "const auto found = [&](size_t index, const LightHit& hit) {",
+        "const auto found = [&](size_t index, const LightHit& hit) {"
+        " if (!scene.lights[index]->visible_camera) { return; }",
+    ),
+    one(
+        "emission-only-at-vertices",
+        3,
+        "surfaces with alpha do not glow for those that pass",
+        CROSSINGS,
+        SUBPATH,
+        "else if (!is_black(v.shading.emission)) {",
+        "else if (!is_black(v.shading.emission) && is_black(v.shading.transparency)) {",
+    ),
+    one(
+        "no-transparency-at-splats",
+        3,
+        "shadow rays to the camera end at transparent surfaces",
+        CROSSINGS,
+        BDPT,
+        "const Connection& c = s->connection;",
+        "Connection c = s->connection; c.crossings = settings_.walk.max_crossings;",
+    ),
+    one(
+        "culled-behind-surfaces",
+        18,
+        "no light is chosen behind a translucent surface",
+        f"{PICTURES}:Matrix.PairwiseCoveringSet",
+        "core/janus/path/vertex.h",
+        "dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, bsdf.transmits()};",
+        "dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, false && bsdf.transmits()};",
+    ),
+    one(
+        "splat-ray-epsilon",
+        21,
+        "the shadow ray to the camera starts in the surface",
+        PICTURES,
+        CONNECT,
+        "offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo)",
+        "v.hit.p",
+    ),
+)
