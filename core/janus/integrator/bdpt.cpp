@@ -190,9 +190,9 @@ class Bdpt final : public PassIntegrator {
       return value;
     }
     ++samples;
-    float scale = 1.0f;
+    float scale = c.made_up;
     const int crossings = settings_.walk.max_crossings - c.crossings;
-    if (crossings < 0 || !roulette.survives(max_component(value), sampler, scale)) {
+    if (crossings < 0 || !roulette.survives(scale * max_component(value), sampler, scale)) {
       return Rgb(0.0f);
     }
     ++rays;

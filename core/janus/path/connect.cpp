@@ -74,7 +74,8 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   scale /= d2;
   const float bound = max_component(c.beta) * camera_bsdf.peak() * l.bound *
                       std::abs(cos_camera * cos_light) * scale;
-  if (!roulette.survives(bound, sampler, scale)) {
+  float made_up = 1.0f;
+  if (!roulette.survives(bound, sampler, made_up)) {
     return joined;
   }
   const BsdfEval at_camera = camera_bsdf.evaluate(wo, wi, TransportMode::Radiance);
@@ -106,6 +107,7 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   joined->from = offset_origin(c.hit.p, c.hit.ng, c.hit.offset, wi);
   joined->to = offset_origin(l.p, l.ng, l.offset, -wi);
   joined->crossings = c.crossings + l.crossings;
+  joined->made_up = made_up;
   return joined;
 }
 

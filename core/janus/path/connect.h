@@ -18,6 +18,9 @@ struct Connection {
   MisWeight weight;
   vec3 from, to;  // shadow ray, both ends off their surfaces
   int crossings;  // of transparent surfaces that the path has so far
+  // For the connections that roulette has ended: a factor beside `value`, because clamping does not
+  // act on it.
+  float made_up = 1.0f;
 };
 
 // A light vertex as the cache keeps it.
@@ -47,7 +50,7 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
                                                 const Mis& mis, Sampler& sampler);
 
 // `scale` is the estimator's factor for one connection; `roulette` plays on a bound of the
-// contribution before the BSDFs are evaluated, and `value` makes up for it.
+// contribution before the BSDFs are evaluated.
 std::optional<Connection> connect_vertices(const LightVertex& light_vertex, BsdfView light_bsdf,
                                            const PathVertex& camera_vertex, const Mis& mis,
                                            const PathRules& rules, float scale,
