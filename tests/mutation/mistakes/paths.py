@@ -65,11 +65,11 @@ PATHS = (
     one(
         "direct-light-is-a-bounce",
         2,
-        "splats count z_1, next to the light, among the bounces",
+        "connections count z_1, next to the light, among the bounces",
         CAPS,
         CONNECT,
-        "rules.caps_bind(v.edges + 1) && v.edges > 1",
-        "rules.caps_bind(v.edges + 1)",
+        "l.edges == 1 ? rules.caps.share",
+        "l.edges == 0 ? rules.caps.share",
     ),
     one(
         "connections-through-surfaces-skipped",
