@@ -5,7 +5,7 @@ import numpy as np
 
 from .light import sync_light
 from .mesh import mesh_arrays
-from .visibility import UNSUPPORTED_TYPES, check_hair, check_linking, check_object
+from .visibility import UNSUPPORTED_TYPES, check_hair, check_linking, check_object, surface_seen_by
 
 # Object types that have a surface. Whatever they are, the depsgraph shows their faces as an
 # instance of type MESH beside the object itself, so only that is exported.
@@ -25,6 +25,7 @@ class InstanceSync:
         self._count = 0
 
     def run(self, depsgraph) -> None:
+        self._view_layer = depsgraph.view_layer
         for instance in depsgraph.object_instances:
             self._poll()
             obj = instance.object  # transient: nothing of it may be kept
@@ -32,7 +33,7 @@ class InstanceSync:
             if not instance.show_self:
                 continue
             if obj.type == "MESH":
-                self._surface(obj, instance.matrix_world)
+                self._surface(instance)
             elif obj.type == "LIGHT":
                 sync_light(
                     self._builder, self._next_key("light"), obj, instance.matrix_world, self._log
@@ -40,7 +41,8 @@ class InstanceSync:
             elif obj.type in UNSUPPORTED_TYPES:
                 self._log.warning(UNSUPPORTED_TYPES[obj.type], object=obj.name)
 
-    def _surface(self, obj, matrix) -> None:
+    def _surface(self, instance) -> None:
+        obj = instance.object
         mesh = self._mesh(obj)
         if mesh is None:
             return
@@ -48,8 +50,9 @@ class InstanceSync:
             self._next_key("instance"),
             name=obj.name,
             mesh=mesh,
-            transform=np.array(matrix, dtype=np.float64),
+            transform=np.array(instance.matrix_world, dtype=np.float64),
             materials=self._materials.keys(obj),
+            **surface_seen_by(instance, self._view_layer),
         )
 
     def _mesh(self, obj) -> str | None:

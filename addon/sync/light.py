@@ -5,8 +5,7 @@ import bpy
 import numpy as np
 
 from ..nodes import flatten_tree
-
-VISIBILITY = ("visible_diffuse", "visible_glossy", "visible_transmission")
+from .visibility import LIGHT_RAYS, seen_by
 
 
 def sync_light(builder, key: str, obj, matrix, log) -> None:
@@ -25,9 +24,9 @@ def sync_light(builder, key: str, obj, matrix, log) -> None:
         energy=light.energy,
         normalize=getattr(light, "normalize", True),
         exposure=getattr(light, "exposure", 0.0),
-        visible_camera=obj.visible_camera,
         graph=flatten_tree(light.node_tree) if has_nodes(light) else None,
         **shape(light),
+        **seen_by(obj, LIGHT_RAYS),
     )
 
 
@@ -73,7 +72,3 @@ def check_light(obj, log) -> None:
         log.info("a square spot is round here, as in Cycles", object=obj.name)
     if not obj.data.use_shadow:
         log.warning("a light without shadows is not supported, it casts them", object=obj.name)
-    hidden = [name for name in VISIBILITY if not getattr(obj, name)]
-    if hidden:
-        rays = ", ".join(name.removeprefix("visible_") for name in hidden)
-        log.warning(f"ray visibility is not supported yet ({rays})", object=obj.name)

@@ -3,8 +3,8 @@
 
 from . import cycles_settings
 
-# Cycles' defaults; anything else changes the picture.
 RAYS = ("camera", "diffuse", "glossy", "transmission", "shadow")
+LIGHT_RAYS = RAYS[:-1]  # a light is in nobody's way
 
 UNSUPPORTED_TYPES = {
     "VOLUME": "volumes are not supported yet",
@@ -31,16 +31,29 @@ def _check_collections(layer_collection, log) -> None:
             continue
         if child.holdout:
             log.warning(f"Collection '{child.name}': holdout is not supported yet")
-        if child.indirect_only:
-            log.warning(f"Collection '{child.name}': indirect only is not supported yet")
         _check_collections(child, log)
+
+
+def seen_by(obj, rays=RAYS) -> dict:
+    """The arguments of set_instance and set_light that say which rays meet the object."""
+    names = (f"visible_{ray}" for ray in rays)
+    return {name: getattr(obj, name) for name in names}
+
+
+def surface_seen_by(instance, view_layer) -> dict:
+    """The same for a surface as it stands in the scene: who instances it may hide it too, and
+    collections may leave it to indirect light."""
+    seen = seen_by(instance.object)
+    owner = instance.object
+    if instance.is_instance:
+        owner = instance.parent
+        seen = {name: seen[name] and value for name, value in seen_by(owner).items()}
+    seen["visible_camera"] &= not owner.original.indirect_only_get(view_layer=view_layer)
+    return seen
 
 
 def check_object(obj, log) -> None:
     """What concerns one object that has a surface."""
-    hidden = [name for name in RAYS if not getattr(obj, f"visible_{name}")]
-    if hidden:
-        log.warning(f"ray visibility is not supported yet ({', '.join(hidden)})", object=obj.name)
     if obj.is_holdout:
         log.warning("holdout is not supported yet", object=obj.name)
     if obj.is_shadow_catcher:

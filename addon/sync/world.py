@@ -5,6 +5,7 @@ import bpy
 
 from ..nodes import flatten_tree
 from .image import send_images
+from .visibility import LIGHT_RAYS
 
 
 def sync_world(builder, depsgraph, log) -> None:
@@ -22,7 +23,13 @@ def sync_world(builder, depsgraph, log) -> None:
         send_images(builder, graph, world, log)
     else:
         graph = background_graph(world.color)
-    builder.set_world(name=world.name, graph=graph)
+    builder.set_world(name=world.name, graph=graph, **seen_by_world(world))
+
+
+def seen_by_world(world) -> dict:
+    """Cycles keeps the ray visibility of worlds; without it, everything sees them."""
+    visibility = getattr(world, "cycles_visibility", None)
+    return {f"visible_{ray}": getattr(visibility, ray, True) for ray in LIGHT_RAYS}
 
 
 def uses_nodes(owner) -> bool:

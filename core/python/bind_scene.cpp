@@ -107,6 +107,19 @@ std::optional<py::array> optional_array(const py::object& value) {
   return to_array(value);
 }
 
+// The rays that meet something, from Blender's five settings.
+RayMask to_mask(bool camera, bool diffuse, bool glossy, bool transmission, bool shadow = true) {
+  RayMask mask = 0;
+  for (const auto& [visible, type] : {std::pair(camera, RayType::Camera),
+                                      {diffuse, RayType::Diffuse},
+                                      {glossy, RayType::Glossy},
+                                      {transmission, RayType::Transmission},
+                                      {shadow, RayType::Shadow}}) {
+    mask |= visible ? ray_bit(type) : 0;
+  }
+  return mask;
+}
+
 mat4 to_matrix(Key key, const py::object& value) {
   const auto a = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
   if (!a || a.ndim() != 2 || a.shape(0) != 4 || a.shape(1) != 4) {
@@ -172,7 +185,8 @@ void set_light(SceneBuilder& self, Key key, std::string name, const std::string&
                const py::object& transform, const std::array<float, 3>& color, float energy,
                float radius, bool soft_falloff, const std::string& shape, float size, float size_y,
                float spread, float spot_size, float spot_blend, bool spot_square, float angle,
-               bool normalize, float exposure, bool visible_camera,
+               bool normalize, float exposure, bool visible_camera, bool visible_diffuse,
+               bool visible_glossy, bool visible_transmission,
                const std::optional<py::dict>& graph) {
   LightDesc desc;
   desc.name = std::move(name);
@@ -192,7 +206,7 @@ void set_light(SceneBuilder& self, Key key, std::string name, const std::string&
   desc.spot_size = spot_size;
   desc.spot_blend = spot_blend;
   desc.spot_square = spot_square;
-  desc.visible_camera = visible_camera;
+  desc.visibility = to_mask(visible_camera, visible_diffuse, visible_glossy, visible_transmission);
   if (graph) {
     desc.graph = to_graph(key, *graph);
   }
@@ -344,32 +358,42 @@ void bind_scene(py::module_& m) {
       .def(
           "set_instance",
           [](SceneBuilder& self, Key key, std::string name, std::string mesh,
-             const py::object& transform, std::vector<std::optional<std::string>> materials) {
+             const py::object& transform, std::vector<std::optional<std::string>> materials,
+             bool camera, bool diffuse, bool glossy, bool transmission, bool shadow) {
             self.set_instance(key, {std::move(name), std::move(mesh), to_matrix(key, transform),
-                                    std::move(materials)});
+                                    std::move(materials),
+                                    to_mask(camera, diffuse, glossy, transmission, shadow)});
           },
           "key"_a, py::kw_only(), "name"_a, "mesh"_a, "transform"_a,
-          "materials"_a = std::vector<std::optional<std::string>>(),
-          "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot.")
+          "materials"_a = std::vector<std::optional<std::string>>(), "visible_camera"_a = true,
+          "visible_diffuse"_a = true, "visible_glossy"_a = true, "visible_transmission"_a = true,
+          "visible_shadow"_a = true,
+          "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot; "
+          "visible_*: the rays that meet it.")
       .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,
            "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f,
            "soft_falloff"_a = true, "shape"_a = "SQUARE", "size"_a = 0.25f, "size_y"_a = 0.25f,
            "spread"_a = kPi, "spot_size"_a = 0.785398f, "spot_blend"_a = 0.15f,
            "spot_square"_a = false, "angle"_a = 0.0f, "normalize"_a = true, "exposure"_a = 0.0f,
-           "visible_camera"_a = true, "graph"_a = py::none(),
+           "visible_camera"_a = true, "visible_diffuse"_a = true, "visible_glossy"_a = true,
+           "visible_transmission"_a = true, "graph"_a = py::none(),
            "A light object, in Blender's words and units: type POINT, SPOT, SUN or AREA; energy in "
            "watts (sun: W/m^2); angles in radians; shape SQUARE, RECTANGLE, DISK or ELLIPSE.")
       .def(
           "set_world",
-          [](SceneBuilder& self, std::string name, const std::optional<py::dict>& graph) {
+          [](SceneBuilder& self, std::string name, const std::optional<py::dict>& graph,
+             bool camera, bool diffuse, bool glossy, bool transmission) {
             WorldDesc desc;
+            desc.visibility = to_mask(camera, diffuse, glossy, transmission);
             if (graph) {
               desc.graph = to_graph(name, *graph);
             }
             desc.name = std::move(name);
             self.set_world(std::move(desc));
           },
-          py::kw_only(), "name"_a, "graph"_a, "The background; graph None: black.")
+          py::kw_only(), "name"_a, "graph"_a, "visible_camera"_a = true, "visible_diffuse"_a = true,
+          "visible_glossy"_a = true, "visible_transmission"_a = true,
+          "The background; graph None: black.")
       .def(
           "set_camera", &set_camera, py::kw_only(), "name"_a, "type"_a = "PERSP", "transform"_a,
           "window"_a, "clip_start"_a = 0.1f, "clip_end"_a = 1000.0f, "aperture_radius"_a = 0.0f,

@@ -29,6 +29,22 @@ def test_point_light(scene, export):
     assert list(sent["transform"][:3, 3]) == [1, 2, 3]
     assert sent["normalize"] is True and sent["exposure"] == 0.0
     assert sent["visible_camera"] is light.visible_camera
+    assert sent["visible_diffuse"] and sent["visible_glossy"] and sent["visible_transmission"]
+
+
+@pytest.mark.parametrize("ray", ["camera", "diffuse", "glossy", "transmission"])
+def test_ray_visibility_of_lights_and_worlds(scene, export, ray):
+    light = add_light("POINT", "Lamp")
+    scene.world = world = bpy.data.worlds.new("Sky")
+    for other in ("camera", "diffuse", "glossy", "transmission"):
+        setattr(light, f"visible_{other}", other != ray)
+        setattr(world.cycles_visibility, other, other != ray)
+    recorder = export()
+    for sent in (one_light(recorder), recorder.world):
+        hidden = {name for name, value in sent.items() if value is False and "visible" in name}
+        assert hidden == {f"visible_{ray}"}
+    assert "visible_shadow" not in one_light(recorder)
+    assert not messages()
 
 
 def test_area_spot_and_sun(scene, export):

@@ -280,7 +280,6 @@ def test_material_override(scene, export):
 
 def test_unsupported_things_are_named(scene, export):
     square = add_square("Ghost")
-    square.visible_camera = False
     square.is_holdout = True
     bpy.ops.object.volume_add()
     cloud = bpy.data.objects.new("Cloud", bpy.data.pointclouds.new("Cloud"))
@@ -296,7 +295,6 @@ def test_unsupported_things_are_named(scene, export):
     export()
     text = "\n".join(messages())
     for expected in (
-        "Object 'Ghost': ray visibility is not supported yet (camera)",
         "Object 'Ghost': holdout",
         "Object 'Volume': volumes",
         "Object 'Cloud': point clouds",
@@ -325,6 +323,45 @@ def test_findings_are_counted_not_repeated(scene, export):
     for x in range(5):
         square = add_square()
         square.name = f"Square {x}"
-    bpy.data.objects["Square 1"].visible_shadow = False
+    bpy.data.objects["Square 1"].is_shadow_catcher = True
     export()
     assert len(messages()) == 1
+
+
+RAYS = ("camera", "diffuse", "glossy", "transmission", "shadow")
+
+
+def hidden_from(instance):
+    return {ray for ray in RAYS if not instance[f"visible_{ray}"]}
+
+
+@pytest.mark.parametrize("ray", RAYS)
+def test_ray_visibility(scene, export, ray):
+    setattr(add_square(), f"visible_{ray}", False)
+    assert hidden_from(export().by_name()["Square"]) == {ray}
+    assert not messages()
+
+
+def test_who_instances_an_object_may_hide_it_too(scene, export):
+    collection = bpy.data.collections.new("Source")
+    collection.objects.link(bpy.data.objects.new("Inside", add_square("Plain").data))
+    collection.objects["Inside"].visible_glossy = False
+    for name, ray in (("A", "shadow"), ("B", "diffuse")):
+        empty = bpy.data.objects.new(name, None)
+        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        setattr(empty, f"visible_{ray}", False)
+        scene.collection.objects.link(empty)
+    found = [hidden_from(i) for i in export().instances.values() if i["name"] == "Inside"]
+    assert sorted(map(sorted, found)) == [["diffuse", "glossy"], ["glossy", "shadow"]]
+
+
+def test_indirect_only_collections_are_hidden_from_the_camera(scene, export):
+    collection = bpy.data.collections.new("Behind")
+    scene.collection.children.link(collection)
+    collection.objects.link(bpy.data.objects.new("Square", add_square("Plain").data))
+    layer = scene.view_layers[0].layer_collection.children["Behind"]
+    layer.indirect_only = True
+    instances = export().by_name()
+    assert hidden_from(instances["Square"]) == {"camera"}
+    assert hidden_from(instances["Plain"]) == set()
+    assert not messages()

@@ -19,7 +19,14 @@ KINDS = ("diffuse", "glossy", "transmission")
 # Name: limits of bounces by kind. What is not named has no limit but that of all bounces.
 CAPS = {f"{kind}_{limit}": {kind: limit} for kind in KINDS for limit in (0, 1, 2)}
 CAPS |= {"mixed": {"diffuse": 1, "glossy": 1, "transmission": 2}}
-CASES = [*CAPS]
+
+# Name: what is hidden from a ray. Cycles gives the segment to a light one type in next event
+# estimation and another one where a bounce hits the light; so its lamps are not to be hit here.
+RAYS = ("camera", *KINDS, "shadow")
+HIDDEN = {f"{thing}_{ray}": (thing, ray) for thing in ("objects", "glow") for ray in RAYS}
+HIDDEN |= {f"{thing}_{ray}": (thing, ray) for thing in ("lamp", "world") for ray in KINDS}
+HIDDEN |= {"world_camera": ("world", "camera")}
+CASES = [*CAPS, *HIDDEN]
 
 
 def limits(name: str) -> dict[str, int]:
@@ -64,6 +71,34 @@ def room(scene) -> None:
     kit.camera(scene, (0.3, -4.6, 1.9), (0.0, 0.1, 0.75), lens=50.0)
 
 
+def hide(scene, thing: str, ray: str) -> None:
+    """Hides a part of the room from a ray."""
+    from scenes import kit
+
+    objects = scene.objects
+    objects["Lamp"].data.cycles.use_multiple_importance_sampling = False
+    if thing in ("lamp", "world"):  # what is left without the lamp must not be dark
+        kit.world(scene, (0.5, 0.6, 0.8))
+    if thing == "world":
+        setattr(scene.world.cycles_visibility, ray, False)
+    elif thing == "glow":
+        glow = kit.shader("Glow", "Emission", Color=(1.0, 0.6, 0.3, 1.0), Strength=4.0)
+        corners = [(-0.9, -0.5, 0.9), (-0.4, -0.5, 0.9), (-0.4, 0.0, 1.1), (-0.9, 0.0, 1.1)]
+        kit.quad(scene, "Glow", corners, glow)
+        setattr(objects["Glow"], f"visible_{ray}", False)
+    elif thing == "objects":
+        for obj in ("Block", "Ball", "Leaf"):
+            setattr(objects[obj], f"visible_{ray}", False)
+    else:
+        setattr(objects["Lamp"], f"visible_{ray}", False)
+    # Of these, Cycles' own rules differ between next event estimation and hits.
+    if thing in ("lamp", "world"):
+        refraction = kit.shader("Bent", "BsdfRefraction", "GGX", Roughness=0.5, IOR=1.4)
+        objects["Ball"].data.materials[0] = refraction
+        if thing == "world" or ray == "transmission":
+            objects["Leaf"].data.materials[0] = refraction
+
+
 def build(name: str):
     """The scene of one case in a fresh file."""
     import bpy
@@ -75,6 +110,8 @@ def build(name: str):
     kit.neutral_settings(scene, SIZE, SIZE, SAMPLES)
     kit.world(scene)
     room(scene)
+    if name in HIDDEN:
+        hide(scene, *HIDDEN[name])
     for kind in KINDS:
         setattr(scene.cycles, f"{kind}_bounces", CAPS.get(name, {}).get(kind, 1024))
     scene.cycles.max_bounces = BOUNCES

@@ -32,4 +32,5 @@ def test_parity(pictures, case, integrator, samples):
     ours = captured.series(integrator, samples, 6, **rules_scenes.limits(case))
     found = compare(ours, cycles, block=8)
     print(f"{case}, {integrator} against Cycles: {found}")
-    found.check(TOLERANCE)
+    # Lamps that are not to be hit make more noise.
+    found.check(TOLERANCE, 0.5 * TOLERANCE if case in rules_scenes.HIDDEN else None)

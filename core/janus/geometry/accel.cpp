@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdlib>
 
@@ -56,24 +57,47 @@ RTCRayHit to_embree(const Ray& ray) {
   return query;
 }
 
+// The instances that some type of ray meets. Top levels of their own rather than ray masks: Embree
+// 3 is usually built without those, and a mask is tested late.
+struct View {
+  RTCScene all = nullptr;
+  RTCScene opaque = nullptr, transparent = nullptr;  // by Instance::opaque; null if all are opaque
+};
+
+// By ray type: the first type that meets the same instances; kRayTypes: it meets all of them.
+std::array<int, kRayTypes> first_alike(const std::vector<Instance>& instances) {
+  const auto sees = [](const Instance& i, int type) {
+    return contains(i.visibility, static_cast<RayType>(type));
+  };
+  std::array<int, kRayTypes> first;
+  for (int type = 0; type < kRayTypes; ++type) {
+    first[type] = type;
+    for (int other = 0; other < type && first[type] == type; ++other) {
+      if (std::ranges::all_of(instances,
+                              [&](const auto& i) { return sees(i, type) == sees(i, other); })) {
+        first[type] = first[other];
+      }
+    }
+    if (std::ranges::all_of(instances, [&](const auto& i) { return sees(i, type); })) {
+      first[type] = kRayTypes;
+    }
+  }
+  return first;
+}
+
 }  // namespace
 
 struct Accel::Impl {
   RTCDevice device = nullptr;
-  RTCScene all = nullptr;
-  // The instances by Instance::opaque; null if all are opaque. Top levels of their own rather than
-  // ray masks: Embree 3 is usually built without those, and a mask is tested late.
-  RTCScene opaque = nullptr, transparent = nullptr;
-  std::vector<RTCScene> bottom;  // by mesh; null where no instance needs it
+  View everything;
+  std::array<View, kRayTypes> own;  // of a type that is the first to meet just these instances
+  std::array<const View*, kRayTypes> view;  // by type
+  std::vector<RTCScene> bottom;             // by mesh; null where no instance needs it
   BuildState state;
   std::atomic<ssize_t> bytes{0};
 
   ~Impl() {
-    for (RTCScene scene : {all, opaque, transparent}) {
-      if (scene) {
-        rtcReleaseScene(scene);
-      }
-    }
+    for_each_scene([](RTCScene scene) { rtcReleaseScene(scene); });
     for (RTCScene scene : bottom) {
       if (scene) {
         rtcReleaseScene(scene);
@@ -83,6 +107,22 @@ struct Accel::Impl {
       rtcReleaseDevice(device);
     }
   }
+
+  // Calls f for the top levels that there are.
+  template <class F>
+  void for_each_scene(F&& f) {
+    const auto parts = [&](const View& v) {
+      for (RTCScene scene : {v.all, v.opaque, v.transparent}) {
+        if (scene) {
+          f(scene);
+        }
+      }
+    };
+    parts(everything);
+    std::ranges::for_each(own, parts);
+  }
+
+  const View& of(RayType type) const { return *view[static_cast<int>(type)]; }
 
   RTCScene new_scene() const {
     RTCScene scene = rtcNewScene(device);
@@ -145,10 +185,21 @@ Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& insta
   rtcSetDeviceMemoryMonitorFunction(impl_->device, on_memory, &impl_->bytes);
 
   impl_->bottom.resize(meshes.size(), nullptr);
-  impl_->all = impl_->new_scene();
-  if (!std::all_of(instances.begin(), instances.end(), [](const auto& i) { return i.opaque; })) {
-    impl_->opaque = impl_->new_scene();
-    impl_->transparent = impl_->new_scene();
+  const bool opaque = std::ranges::all_of(instances, [](const auto& i) { return i.opaque; });
+  const auto start = [&](View& view) {
+    view.all = impl_->new_scene();
+    if (!opaque) {
+      view.opaque = impl_->new_scene();
+      view.transparent = impl_->new_scene();
+    }
+  };
+  start(impl_->everything);
+  const auto first = first_alike(instances);
+  for (int type = 0; type < kRayTypes; ++type) {
+    impl_->view[type] = first[type] == kRayTypes ? &impl_->everything : &impl_->own[first[type]];
+    if (first[type] == type) {
+      start(impl_->own[type]);
+    }
   }
   placements_.reserve(instances.size());
   for (size_t i = 0; i < instances.size(); ++i) {
@@ -177,24 +228,28 @@ Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& insta
     rtcSetGeometryInstancedScene(geometry, bottom);
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &instance.to_world);
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(impl_->all, geometry, static_cast<unsigned>(i));
-    if (impl_->transparent) {
-      rtcAttachGeometryByID(instance.opaque ? impl_->opaque : impl_->transparent, geometry,
-                            static_cast<unsigned>(i));
+    const auto attach = [&](const View& view) {
+      rtcAttachGeometryByID(view.all, geometry, static_cast<unsigned>(i));
+      if (!opaque) {
+        rtcAttachGeometryByID(instance.opaque ? view.opaque : view.transparent, geometry,
+                              static_cast<unsigned>(i));
+      }
+    };
+    attach(impl_->everything);
+    for (int type = 0; type < kRayTypes; ++type) {
+      if (first[type] == type && contains(instance.visibility, static_cast<RayType>(type))) {
+        attach(impl_->own[type]);
+      }
     }
     rtcReleaseGeometry(geometry);
     if (i % 1024 == 0) {
       cancel.throw_if_cancelled();
     }
   }
-  for (RTCScene scene : {impl_->all, impl_->opaque, impl_->transparent}) {
-    if (scene) {
-      impl_->commit(scene);
-    }
-  }
+  impl_->for_each_scene([&](RTCScene scene) { impl_->commit(scene); });
 
   RTCBounds b;
-  rtcGetSceneBounds(impl_->all, &b);
+  rtcGetSceneBounds(impl_->everything.all, &b);
   if (b.lower_x <= b.upper_x) {
     bounds_.extend(vec3(b.lower_x, b.lower_y, b.lower_z));
     bounds_.extend(vec3(b.upper_x, b.upper_y, b.upper_z));
@@ -203,18 +258,28 @@ Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& insta
 
 Accel::~Accel() = default;
 
-bool Accel::intersect(const Ray& ray, SurfaceInteraction& hit) const {
-  return impl_->intersect(placements_, impl_->all, ray, hit);
+bool Accel::intersect(const Ray& ray, RayType type, SurfaceInteraction& hit) const {
+  return impl_->intersect(placements_, impl_->of(type).all, ray, hit);
 }
 
-bool Accel::occluded(vec3 a, vec3 b) const { return impl_->occluded(impl_->all, a, b); }
-
-bool Accel::occluded_opaque(vec3 a, vec3 b) const {
-  return impl_->occluded(impl_->transparent ? impl_->opaque : impl_->all, a, b);
+bool Accel::intersect_any(const Ray& ray, SurfaceInteraction& hit) const {
+  return impl_->intersect(placements_, impl_->everything.all, ray, hit);
 }
 
-bool Accel::intersect_transparent(const Ray& ray, SurfaceInteraction& hit) const {
-  return impl_->transparent && impl_->intersect(placements_, impl_->transparent, ray, hit);
+bool Accel::alike(RayType a, RayType b) const { return &impl_->of(a) == &impl_->of(b); }
+
+bool Accel::occluded(vec3 a, vec3 b, RayType type) const {
+  return impl_->occluded(impl_->of(type).all, a, b);
+}
+
+bool Accel::occluded_opaque(vec3 a, vec3 b, RayType type) const {
+  const View& view = impl_->of(type);
+  return impl_->occluded(view.transparent ? view.opaque : view.all, a, b);
+}
+
+bool Accel::intersect_transparent(const Ray& ray, RayType type, SurfaceInteraction& hit) const {
+  const View& view = impl_->of(type);
+  return view.transparent && impl_->intersect(placements_, view.transparent, ray, hit);
 }
 
 SurfaceInteraction Accel::surface_point(uint32_t instance, uint32_t primitive, vec2 b) const {

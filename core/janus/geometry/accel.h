@@ -25,22 +25,29 @@ class Accel {
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
 
-  // The nearest surface within (0, ray.t_max), written to `hit`; false: none.
-  bool intersect(const Ray& ray, SurfaceInteraction& hit) const;
+  // The nearest surface within (0, ray.t_max) that rays of `type` meet, written to `hit`; false:
+  // none.
+  bool intersect(const Ray& ray, RayType type, SurfaceInteraction& hit) const;
+
+  // The same among all surfaces, whatever they are visible to.
+  bool intersect_any(const Ray& ray, SurfaceInteraction& hit) const;
+
+  // Do rays of both types meet the same instances?
+  bool alike(RayType a, RayType b) const;
 
   // The share of a shadow ray that is traced: a surface at its end, seen from afar, is known no
   // better than to the rest.
   static constexpr float kShadowReach = 1.0f - 0x1p-17f;
 
-  // True if something lies on the open segment from `a` to `b` (points already off surfaces), up to
-  // kShadowReach of it.
-  bool occluded(vec3 a, vec3 b) const;
+  // True if something that rays of `type` meet lies on the open segment from `a` to `b` (points
+  // already off surfaces), up to kShadowReach of it.
+  bool occluded(vec3 a, vec3 b, RayType type) const;
 
   // The same among the instances with `opaque`, and the nearest surface among the others: together
   // they are what a shadow ray meets that some surfaces let through. Both cost nothing where all
   // instances are opaque.
-  bool occluded_opaque(vec3 a, vec3 b) const;
-  bool intersect_transparent(const Ray& ray, SurfaceInteraction& hit) const;
+  bool occluded_opaque(vec3 a, vec3 b, RayType type) const;
+  bool intersect_transparent(const Ray& ray, RayType type, SurfaceInteraction& hit) const;
 
   // The surface at barycentric coordinates (b1, b2) of a triangle; `offset` and normals as from a
   // hit. Used by light sampling, so that both ends of a shadow ray follow one rule.

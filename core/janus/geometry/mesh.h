@@ -45,6 +45,7 @@ struct Instance {
   std::vector<uint32_t> materials;    // program index by slot; never empty
   int light = -1;                     // index of the mesh light, or -1
   bool opaque = true;                 // false: rays may pass through parts of it (see Accel)
+  RayMask visibility = kAllRays;      // the rays that meet it
   std::string name;
 
   uint32_t material(uint32_t slot) const {

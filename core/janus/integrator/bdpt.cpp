@@ -78,11 +78,8 @@ class Bdpt final : public PassIntegrator {
 
   // Are there paths that camera walks cannot make? A light that cannot be hit, behind a delta.
   bool needs_light_paths() const {
-    const Scene& scene = context_.scene;
-    return std::ranges::any_of(scene.lights, [](const auto& l) { return !l->hittable(); }) &&
-           std::ranges::any_of(scene.programs, [](const Program& p) {
-             return std::ranges::any_of(p.lobes, is_delta);
-           });
+    return context_.scene.has_deltas &&
+           std::ranges::any_of(context_.scene.lights, [](const auto& l) { return !l->hittable(); });
   }
 
   void adapt(const Counters& work) {
@@ -133,7 +130,8 @@ class Bdpt final : public PassIntegrator {
 
   // A vertex that no camera vertex may join within the length limit is not worth its place.
   void cache(const PathVertex& v, CacheBlock& cache) const {
-    if (v.bsdf().connectible() && v.edges + 2 <= settings_.walk.max_edges) {
+    if (v.bsdf().connectible() && v.edges + 2 <= settings_.walk.max_edges &&
+        v.possible_labels(false) != 0) {
       cache.add(v);
     }
   }
@@ -196,7 +194,7 @@ class Bdpt final : public PassIntegrator {
       return Rgb(0.0f);
     }
     ++rays;
-    const Rgb arrived = value * context_.scene.transmittance(c.from, c.to, crossings);
+    const Rgb arrived = value * context_.scene.transmittance(c.from, c.to, c.type, crossings);
     return settings_.clamp(arrived, edges) * scale;
   }
 
@@ -264,7 +262,8 @@ class Bdpt final : public PassIntegrator {
               context_.scene.lights[found.light]->infinite()) {
             return;
           }
-          const Connection c{found.beta * found.hit.radiance, found.weight, {}, {}, 0};
+          const Connection c{
+              found.beta * found.hit.radiance, found.weight, {}, {}, RayType::Shadow, 0};
           const Rgb value = settings_.clamp(weighted(c, 0, found.edges + 1), found.edges);
           gather(value);
           if (found.edges > 1) {  // straight into the light: the same whatever the counts
@@ -291,7 +290,7 @@ class Bdpt final : public PassIntegrator {
     if (!context_.scene.light_sampler.illuminates()) {
       return Rgb(0.0f);
     }
-    const auto nee = connect_to_light(context_.scene, v, mis_, sampler);
+    const auto nee = connect_to_light(context_.scene, v, mis_, settings_.walk, sampler);
     if (!nee) {
       return Rgb(0.0f);
     }

@@ -52,8 +52,8 @@ class LightTracer final : public PassIntegrator {
       return;
     }
     ++counters.splat_rays;
-    const Rgb value = s->connection.value *
-                      context_.scene.transmittance(s->connection.from, s->connection.to, crossings);
+    const Connection& c = s->connection;
+    const Rgb value = c.value * context_.scene.transmittance(c.from, c.to, c.type, crossings);
     if (!is_black(value)) {
       out.push_back({s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1)});
     }

@@ -49,14 +49,23 @@ class PathTracer final : public PassIntegrator {
     int edges = 1, crossings = 0;
     Rgb beta = Rgb(1.0f);
     std::array<int, 3> bounces{};  // diffuse, glossy, transmission
+    RayType type = RayType::Camera;
+    // Of the scattering at the last vertex: the shares of diffuse lobes and of the others, and
+    // whether it was to the other side.
+    Rgb diffuse = Rgb(0.0f), rest = Rgb(1.0f);
+    bool transmitted = false;
   };
 
   // Light of source `index` found on the way.
   Rgb found(const Walk& walk, size_t index, const LightHit& hit) const {
     const Light& light = *context_.scene.lights[index];
-    if (walk.edges == 1 &&
-        (!light.visible_camera || (light.infinite() && settings_.film_transparent))) {
+    if (walk.edges == 1 && (!contains(light.visibility, RayType::Camera) ||
+                            (light.infinite() && settings_.film_transparent))) {
       return Rgb(0.0f);
+    }
+    Rgb lit(1.0f);
+    if (settings_.walk.ray_types && walk.edges > 1) {
+      lit = seen(light, walk.diffuse, walk.rest, walk.transmitted);
     }
     const LightSampler& lights = context_.scene.light_sampler;
     const float pdf_nee =
@@ -64,7 +73,48 @@ class PathTracer final : public PassIntegrator {
             ? 0.0f
             : lights.pmf_illumination(walk.previous, index, hit.primitive) * hit.pdf_illumination;
     const float w = walk.delta ? 1.0f : weight(walk.pdf_solid, pdf_nee);
-    return settings_.clamp(walk.beta * hit.radiance * w, walk.edges);
+    return settings_.clamp(walk.beta * lit * hit.radiance * w, walk.edges);
+  }
+
+  // What a light may add of what diffuse lobes scatter, and of the rest.
+  static Rgb seen(const Light& light, Rgb diffuse, Rgb rest, bool transmitted) {
+    const RayType other = transmitted ? RayType::Transmission : RayType::Glossy;
+    return (contains(light.visibility, RayType::Diffuse) ? diffuse : Rgb(0.0f)) +
+           (contains(light.visibility, other) ? rest : Rgb(0.0f));
+  }
+
+  // A light is looked for with the rules of shadow rays, unless only this walk can find it. Where
+  // the walk sees other things than they do, it takes a ray of its own for that.
+  bool looks_apart(const Walk& walk) const {
+    return settings_.walk.ray_types && walk.edges > 1 && !walk.delta &&
+           !context_.scene.accel->alike(walk.type, RayType::Shadow);
+  }
+
+  Rgb lights_ahead(Walk walk, Counters& counters) const {
+    const Scene& scene = context_.scene;
+    const vec3 d = walk.ray.direction;
+    Rgb sum(0.0f);
+    for (;;) {
+      ++counters.camera_rays;
+      SurfaceInteraction hit;
+      if (!scene.accel->intersect_any(Ray{walk.origin, d, walk.ray.t_max - walk.t_begin}, hit)) {
+        return sum + lamps(walk, std::nullopt);
+      }
+      const float t_end = glm::length(hit.p - walk.ray.origin);
+      sum += lamps(walk, t_end);
+      const ShadingResult shading = scene.shade(hit);
+      if (size_t index; const MeshLight* light = scene.mesh_light(hit, index)) {
+        sum += found(walk, index, light->at(hit, walk.previous.p, d, shading.emission));
+      }
+      if (contains(scene.instances[hit.instance].visibility, RayType::Shadow)) {
+        walk.beta *= shading.transparency;
+        if (is_black(walk.beta) || ++walk.crossings > settings_.walk.max_crossings) {
+          return sum;
+        }
+      }
+      walk.origin = offset_origin(hit.p, hit.ng, hit.offset, d);
+      walk.t_begin = t_end;
+    }
   }
 
   // The lamps on the present segment, which ends at `t_end`, or nowhere.
@@ -91,18 +141,25 @@ class PathTracer final : public PassIntegrator {
     for (;;) {
       ++counters.camera_rays;
       const vec3 wo = -walk.ray.direction;
-      const auto hit =
-          scene.intersect(Ray{walk.origin, walk.ray.direction, walk.ray.t_max - walk.t_begin});
+      const bool apart = looks_apart(walk);
+      if (apart && walk.origin == walk.ray.origin) {  // once for the whole ray
+        sum += lights_ahead(walk, counters);
+      }
+      const auto hit = scene.intersect(
+          Ray{walk.origin, walk.ray.direction, walk.ray.t_max - walk.t_begin}, walk.type);
       if (!hit) {
         if (walk.edges == 1) {
           alpha = 1.0f - average(walk.beta);
         }
-        return sum + lamps(walk, std::nullopt);
+        return apart ? sum : sum + lamps(walk, std::nullopt);
       }
       const float t_end = glm::length(hit->p - walk.ray.origin);
-      sum += lamps(walk, t_end);
+      if (!apart) {
+        sum += lamps(walk, t_end);
+      }
       const ShadingResult shading = scene.shade(*hit);
-      if (size_t index; const MeshLight* light = scene.mesh_light(*hit, index)) {
+      size_t index;
+      if (const MeshLight* light = scene.mesh_light(*hit, index); light && !apart) {
         sum += found(walk, index,
                      light->at(*hit, walk.previous.p, walk.ray.direction, shading.emission));
       }
@@ -144,23 +201,48 @@ class PathTracer final : public PassIntegrator {
         return sum;
       }
       std::array<int, 3> bounces = walk.bounces;
-      if (settings_.walk.counts()) {
-        ++bounces[bounce_kind(*sample, sampler)];
+      RayType type = RayType::Diffuse;
+      if (settings_.walk.labels()) {
+        type = label(*sample, sampler);
+        ++bounces[static_cast<int>(type)];
       }
+      const Rgb diffuse =
+          settings_.walk.ray_types ? share(sample->diffuse, sample->weight) : Rgb(0.0f);
       const Ray next{offset_origin(hit->p, hit->ng, hit->offset, sample->direction),
                      sample->direction};
-      walk =
-          Walk{next,          receiver(*hit, bsdf, wo), next.origin,    0.0f,     sample->pdf_solid,
-               sample->delta, walk.edges + 1,           walk.crossings, beta / q, bounces};
+      walk = Walk{.ray = next,
+                  .previous = receiver(*hit, bsdf, wo),
+                  .origin = next.origin,
+                  .pdf_solid = sample->pdf_solid,
+                  .delta = sample->delta,
+                  .edges = walk.edges + 1,
+                  .crossings = walk.crossings,
+                  .beta = beta / q,
+                  .bounces = bounces,
+                  .type = type,
+                  .diffuse = diffuse,
+                  .rest = Rgb(1.0f) - diffuse,
+                  .transmitted = sample->transmitted};
     }
   }
 
-  // 0: diffuse, 1: glossy, 2: transmission. Lobes that reflect into one direction share it.
-  static int bounce_kind(const BsdfSample& sample, Sampler& sampler) {
-    if (sample.transmitted) {
-      return 2;
+  // By channel.
+  static Rgb share(Rgb part, Rgb whole) {
+    Rgb result(0.0f);
+    for (int c = 0; c < 3; ++c) {
+      result[c] = part[c] > 0.0f ? part[c] / whole[c] : 0.0f;
     }
-    return sample.share_diffuse > 0.0f && sampler.next_1d() < sample.share_diffuse ? 0 : 1;
+    return result;
+  }
+
+  // Lobes that reflect into one direction share it.
+  static RayType label(const BsdfSample& sample, Sampler& sampler) {
+    if (sample.transmitted) {
+      return RayType::Transmission;
+    }
+    const float diffuse =
+        is_black(sample.diffuse) ? 0.0f : average(sample.diffuse) / average(sample.weight);
+    return diffuse > 0.0f && sampler.next_1d() < diffuse ? RayType::Diffuse : RayType::Glossy;
   }
 
   bool beyond_caps(const std::array<int, 3>& bounces) const {
@@ -192,13 +274,18 @@ class PathTracer final : public PassIntegrator {
     ++counters.nee_rays;
     const Rgb visible =
         scene.transmittance(offset_origin(hit.p, hit.ng, hit.offset, sample->wi), sample->target,
-                            settings_.walk.max_crossings - crossings);
+                            RayType::Shadow, settings_.walk.max_crossings - crossings);
     if (is_black(visible)) {
       return visible;
     }
     const float pdf_nee = choice.pmf * sample->pdf_solid;
     const float pdf_hit = light.hittable() ? e.pdf_radiance : 0.0f;
-    return e.f * visible * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee);
+    Rgb f = e.f;
+    if (settings_.walk.ray_types) {
+      const bool transmitted = dot(wo, hit.ng) * dot(sample->wi, hit.ng) < 0.0f;
+      f = seen(light, e.diffuse, e.f - e.diffuse, transmitted);
+    }
+    return f * visible * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee);
   }
 };
 

@@ -16,6 +16,7 @@
 
 #include "janus/geometry/interaction.h"
 #include "janus/math/vec.h"
+#include "janus/scene/ray_type.h"
 
 namespace janus {
 
@@ -88,7 +89,7 @@ class Light {
   Light& operator=(const Light&) = delete;
 
   std::string name;
-  bool visible_camera = true;
+  RayMask visibility = kAllRays;  // the camera, and the labels of z_1, that see it
 
   // Emitted power, watts (an estimate that guides sampling; Rgb luminance).
   virtual float power() const = 0;

@@ -36,11 +36,13 @@ LightSampler::LightSampler(const std::vector<std::unique_ptr<Light>>& lights) {
   std::vector<Emitter> finite;
   for (size_t i = 0; i < lights.size(); ++i) {
     const auto light = static_cast<uint32_t>(i);
-    emission.push_back(lights[i]->power());
+    const bool shines = (lights[i]->visibility & kLabels) != 0;  // on anything
+    emission.push_back(shines ? lights[i]->power() : 0.0f);
     first_.push_back(finite.size());
     infinite_of_.push_back(-1);
     uint32_t primitive = 0;
-    for (const Emitter& emitter : lights[i]->emitters()) {
+    for (Emitter& emitter : lights[i]->emitters()) {
+      emitter.strength = shines ? emitter.strength : 0.0f;
       const EmitterId id{light, primitive++};
       if (!emitter.infinite) {
         finite.push_back(emitter);

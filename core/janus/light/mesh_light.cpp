@@ -10,6 +10,7 @@ MeshLight::MeshLight(const Accel& accel, const Mesh& mesh, const Instance& insta
                      std::vector<Rgb> radiance)
     : accel_(accel), instance_(index), slot_(radiance.size(), kDark) {
   name = instance.name;
+  visibility = instance.visibility;
   const mat3 linear(instance.to_world);
   std::vector<float> weights;
   for (uint32_t i = 0; i < radiance.size(); ++i) {

@@ -28,7 +28,7 @@ class PointLight final : public Light {
     }
     solid_angle_ = beam_ ? beam_->solid_angle() : 4.0f * kPi;
     name = desc.name;
-    visible_camera = desc.visible_camera;
+    visibility = desc.visibility;
   }
 
   float power() const override { return peak_intensity() * solid_angle_; }

@@ -16,10 +16,13 @@ LightVertex::LightVertex(const PathVertex& v)
       crossings(static_cast<uint16_t>(v.crossings)),
       bounces(v.bounces),
       lobe_count(0),
-      transmits(v.bsdf().transmits()) {}
+      transmits(v.bsdf().transmits()),
+      labels(v.possible_labels(false) & (v.edges == 1 ? v.source : kLabels)),
+      seen_by(v.visibility & kLabels) {}
 
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& v,
-                                                const Mis& mis, Sampler& sampler) {
+                                                const Mis& mis, const PathRules& rules,
+                                                Sampler& sampler) {
   std::optional<LightConnection> joined;
   const float u_light = sampler.next_1d();
   const vec2 u = sampler.next_2d();
@@ -36,16 +39,25 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   if (is_black(e.f)) {
     return joined;
   }
+  Rgb f = e.f;
+  if (rules.ray_types) {
+    const bool transmitted = dot(v.back, v.hit.ng) * dot(wi, v.hit.ng) < 0.0f;
+    f *= lit_share(e.f, e.diffuse, transmitted, light.visibility);
+    if (is_black(f)) {
+      return joined;
+    }
+  }
   const float pdf_nee = choice.pmf * sample->pdf_solid;
   const float pdf_hit = light.hittable() ? e.pdf_radiance : 0.0f;
   const float joint =
       scene.light_sampler.pmf_emission(choice.light) *
       emission_density(sample->emission, std::abs(dot(wi, v.hit.ng)), sample->distance2);
   joined.emplace();
-  joined->connection.value = v.beta * e.f * sample->radiance / pdf_nee;
+  joined->connection.value = v.beta * f * sample->radiance / pdf_nee;
   joined->connection.weight = mis.weight_nee(pdf_nee, pdf_hit, joint, v.mis, e.pdf_importance);
   joined->connection.from = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wi);
   joined->connection.to = sample->target;
+  joined->connection.type = RayType::Shadow;
   joined->connection.crossings = v.crossings;
   joined->end = {joint, pdf_nee, light.hittable(), wi};
   return joined;
@@ -86,10 +98,31 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   if (is_black(at_light.f)) {
     return joined;
   }
-  if (rules.caps_bind(l.edges + c.edges + 1)) {
+  RayType type = RayType::Diffuse;
+  Rgb lit(1.0f);
+  if (rules.ray_types || rules.caps_bind(l.edges + c.edges + 1)) {
     const BounceCounts bounces = l.bounces + c.bounces;
-    const auto camera_label = LabelShares::joined(at_camera, cos_camera * dot(wo, c.hit.ng) < 0.0f);
-    const auto light_label = LabelShares::joined(at_light, cos_light * dot(l.wi, l.ng) < 0.0f);
+    const bool transmitted_light = cos_light * dot(l.wi, l.ng) < 0.0f;
+    auto camera_label = LabelShares::joined(at_camera, cos_camera * dot(wo, c.hit.ng) < 0.0f);
+    auto light_label = LabelShares::joined(at_light, transmitted_light);
+    if (rules.ray_types) {
+      camera_label = camera_label.within(l.seen_by);
+      const float sum = camera_label.sum();
+      if (sum == 0.0f) {
+        return joined;
+      }
+      type = camera_label.draw(sampler);
+      camera_label = LabelShares::only(type);
+      scale *= sum;
+      if (l.edges == 1) {
+        lit = lit_share(at_light.f, at_light.diffuse, transmitted_light, l.labels);
+        if (is_black(lit)) {
+          return joined;
+        }
+      } else {
+        light_label = light_label.within(l.labels);
+      }
+    }
     const float share = l.edges == 1 ? rules.caps.share(bounces, camera_label)
                                      : rules.caps.share(bounces, camera_label, light_label);
     if (share == 0.0f) {
@@ -101,11 +134,12 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   const float pdf_area_light = at_camera.pdf_radiance * std::abs(cos_light) / d2;
   const float pdf_area_camera = at_light.pdf_importance * std::abs(cos_camera) / d2;
   joined.emplace();
-  joined->value = c.beta * at_camera.f * at_light.f * l.beta * scale;
+  joined->value = c.beta * at_camera.f * at_light.f * l.beta * lit * scale;
   joined->weight = mis.weight_connection(l.mis, pdf_area_light, at_light.pdf_radiance, c.mis,
                                          pdf_area_camera, at_camera.pdf_importance);
   joined->from = offset_origin(c.hit.p, c.hit.ng, c.hit.offset, wi);
   joined->to = offset_origin(l.p, l.ng, l.offset, -wi);
+  joined->type = type;
   joined->crossings = c.crossings + l.crossings;
   joined->made_up = made_up;
   return joined;
@@ -114,6 +148,9 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
 std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera, vec2 u_lens,
                                              float margin, const Mis& mis, const PathRules& rules) {
   std::optional<CameraSplat> splat;
+  if (!contains(v.visibility, RayType::Camera)) {
+    return splat;
+  }
   const auto to_camera = camera.connect(v.hit.p, u_lens, margin);
   if (!to_camera) {
     return splat;
@@ -124,21 +161,25 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
   if (is_black(e.f)) {
     return splat;
   }
-  float share = 1.0f;
-  if (rules.caps_bind(v.edges + 1) && v.edges > 1) {
-    const bool transmitted = dot(wo, v.hit.ng) * dot(v.back, v.hit.ng) < 0.0f;
-    share = rules.caps.share(v.bounces, LabelShares::joined(e, transmitted));
-    if (share == 0.0f) {
-      return splat;
-    }
+  Rgb share(1.0f);
+  const bool transmitted = dot(wo, v.hit.ng) * dot(v.back, v.hit.ng) < 0.0f;
+  if (v.edges > 1 && (rules.ray_types || rules.caps_bind(v.edges + 1))) {
+    const auto label = LabelShares::joined(e, transmitted).within(v.possible_labels(false));
+    share = Rgb(rules.caps.share(v.bounces, label));
+  } else if (rules.ray_types) {
+    share = v.possible_labels(false) ? lit_share(e.f, e.diffuse, transmitted, v.source) : Rgb(0.0f);
+  }
+  if (is_black(share)) {
+    return splat;
   }
   const float importance = to_camera->importance();
   splat.emplace();
   Connection& joined = splat->connection;
-  joined.value = v.beta * e.f * (share * importance / to_camera->pmf);
+  joined.value = v.beta * e.f * share * (importance / to_camera->pmf);
   joined.weight = mis.weight_splat(v.mis, importance * std::abs(dot(wo, v.hit.ng)), e.pdf_radiance);
   joined.from = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo);
   joined.to = to_camera->target;
+  joined.type = RayType::Camera;
   joined.crossings = v.crossings;
   splat->raster = to_camera->raster;
   splat->end = {v.hit.p + std::sqrt(to_camera->distance2) * wo, to_camera->density};

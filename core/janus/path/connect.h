@@ -17,6 +17,7 @@ struct Connection {
   Rgb value;
   MisWeight weight;
   vec3 from, to;  // shadow ray, both ends off their surfaces
+  RayType type;   // what it is on the path
   int crossings;  // of transparent surfaces that the path has so far
   // For the connections that roulette has ended: a factor beside `value`, because clamping does not
   // act on it.
@@ -34,8 +35,10 @@ struct LightVertex {
   uint32_t first_lobe;
   uint16_t edges, crossings;
   BounceCounts bounces;
-  uint8_t lobe_count;
-  bool transmits;
+  uint8_t lobe_count : 4;
+  uint8_t transmits : 1;
+  // Labels: which the vertex may have (z_1: which see the light), and which see its object.
+  uint8_t labels : 3, seen_by : 3;
 
   LightVertex() = default;
   // Of a subpath's vertex; the lobes are the cache's business.
@@ -47,7 +50,8 @@ struct LightConnection {
   LightEnd end;
 };
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& camera_vertex,
-                                                const Mis& mis, Sampler& sampler);
+                                                const Mis& mis, const PathRules& rules,
+                                                Sampler& sampler);
 
 // `scale` is the estimator's factor for one connection; `roulette` plays on a bound of the
 // contribution before the BSDFs are evaluated.

@@ -6,25 +6,44 @@
 // limited over the whole path, so that it is a property of the path and not of the technique.
 #pragma once
 
+#include <functional>
+
 #include "janus/path/counters.h"
 #include "janus/path/vertex.h"
 #include "janus/sampling/sampler.h"
 
 namespace janus {
 
-// Follows `ray` to the next vertex, which is written to `v.hit` and `v.shading`. Multiplies
-// `v.beta` by what the crossings let through, counts them in `v.crossings` up to `max_crossings`,
-// and calls on_segment(t_begin, t_end, surface) for each piece of the way, before `v.beta` changes;
-// `surface` is whether v.hit and v.shading are its end, or the flight leaves the scene; t counts
-// from the ray's origin. False: the flight left the scene or was absorbed.
+// Calls f(light, LightHit) for the lamps on `ray` between two distances; `surface`: there is one at
+// t_end, else the ray may leave the scene there.
+template <class F>
+void lamps_between(const Scene& scene, const Ray& ray, float t_begin, float t_end, bool surface,
+                   F&& f) {
+  const Ray up_to{ray.origin, ray.direction, t_end};
+  scene.lamp_index.for_each_on_ray(up_to, [&](size_t lamp) {
+    const Light& light = *scene.lights[lamp];
+    const float t_max = light.infinite() && !surface ? kInfinity : t_end;
+    const auto hit = light.intersect(Ray{ray.origin, ray.direction, t_max});
+    if (hit && hit->t > t_begin) {
+      f(lamp, *hit);
+    }
+  });
+}
+
+// Follows `ray`, which is of `type`, to the next vertex, which is written to `v.hit` and
+// `v.shading`. Multiplies `v.beta` by what the crossings let through, counts them in `v.crossings`
+// up to `max_crossings`, and calls on_segment(t_begin, t_end, surface) for each piece of the way,
+// before `v.beta` changes; `surface` is whether v.hit and v.shading are its end, or the flight
+// leaves the scene; t counts from the ray's origin. False: the flight left the scene or was
+// absorbed.
 template <class OnSegment>
-bool fly(const Scene& scene, const Ray& ray, int max_crossings, Sampler& sampler, uint64_t& rays,
-         PathVertex& v, OnSegment&& on_segment) {
+bool fly(const Scene& scene, const Ray& ray, RayType type, int max_crossings, Sampler& sampler,
+         uint64_t& rays, PathVertex& v, OnSegment&& on_segment) {
   Ray segment = ray;
   float t_begin = 0.0f;
   for (;;) {
     ++rays;
-    if (!scene.intersect(segment, v.hit)) {
+    if (!scene.intersect(segment, type, v.hit)) {
       on_segment(t_begin, ray.t_max, false);
       return false;
     }
@@ -52,5 +71,30 @@ bool fly(const Scene& scene, const Ray& ray, int max_crossings, Sampler& sampler
     t_begin = t_end;
   }
 }
+
+// --- Where some objects are not visible to all rays ---
+//
+// Seldom needed: kept out of the walks' way in flight.cpp.
+
+// fly() from the side of the light. The segment is of `type`, but whether its end is there depends
+// on the segment after it: surfaces that rays of `type` do not meet are passed by chance too.
+// Writes `v.visibility`.
+bool fly_past(const Scene& scene, const Ray& ray, RayType type, int max_crossings, Sampler& sampler,
+              uint64_t& rays, PathVertex& v);
+
+// Types of one and the same effect for a segment of a light subpath, drawn from `possible` ones
+// (not empty) before its end is known.
+struct DrawnTypes {
+  RayMask types;
+  float pmf;
+};
+DrawnTypes draw_types(const Accel& accel, RayMask possible, Sampler& sampler);
+
+// Calls found(light, LightHit, transmittance) for each light on `ray` from a vertex at `from`, the
+// way as a shadow ray sees it: surfaces that shadow rays do not meet emit, but do not block.
+// `crossings`: of the path so far.
+void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossings,
+                     int max_crossings, uint64_t& rays,
+                     const std::function<void(size_t, const LightHit&, Rgb)>& found);
 
 }  // namespace janus

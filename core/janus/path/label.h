@@ -4,7 +4,8 @@
 // Transmission is whatever goes to the other side, a reflection is diffuse or glossy by its lobe, a
 // mirror counts as glossy. Where several lobes reflect smoothly into the same direction, the vertex
 // has each of their labels by its share of f (a mean over the channels). The shares are a property
-// of the path: walks draw a label, joins sum over them, and densities and weights do not know.
+// of the path: walks draw a label, joins sum over them or draw one, and densities and weights do
+// not know.
 #pragma once
 
 #include "janus/sampling/sampler.h"
@@ -28,17 +29,24 @@ struct LabelShares {
 
   // Of a vertex with value `e` for two directions on the same or on different sides of Ng.
   static LabelShares joined(const BsdfEval& e, bool transmitted) {
-    if (transmitted) {
-      return only(RayType::Transmission);
-    }
-    return reflection(e.diffuse > 0.0f ? std::min(e.diffuse / average(e.f), 1.0f) : 0.0f);
+    return of_event(e.f, e.diffuse, transmitted);
   }
   static LabelShares sampled(const BsdfSample& sample) {
-    return sample.transmitted ? only(RayType::Transmission)
-                              : reflection(std::min(sample.share_diffuse, 1.0f));
+    return of_event(sample.weight, sample.diffuse, sample.transmitted);
   }
 
-  // One label by chance. Takes a number only where there is a choice.
+  // Those in `mask` alone.
+  LabelShares within(RayMask mask) const {
+    LabelShares rest;
+    for (int i = 0; i < 3; ++i) {
+      rest.of[i] = contains(mask, static_cast<RayType>(i)) ? of[i] : 0.0f;
+    }
+    return rest;
+  }
+  float sum() const { return of[0] + of[1] + of[2]; }
+
+  // One label by chance, in proportion; some share is above 0. Takes a number only where there is a
+  // choice.
   RayType draw(Sampler& sampler) const {
     if (of[2] > 0.0f) {
       return RayType::Transmission;
@@ -46,9 +54,35 @@ struct LabelShares {
     if (of[0] == 0.0f || of[1] == 0.0f) {
       return of[0] > 0.0f ? RayType::Diffuse : RayType::Glossy;
     }
-    return sampler.next_1d() < of[0] ? RayType::Diffuse : RayType::Glossy;
+    return sampler.next_1d() * sum() < of[0] ? RayType::Diffuse : RayType::Glossy;
+  }
+
+ private:
+  static LabelShares of_event(Rgb value, Rgb diffuse, bool transmitted) {
+    if (transmitted) {
+      return only(RayType::Transmission);
+    }
+    return reflection(is_black(diffuse) ? 0.0f : std::min(average(diffuse) / average(value), 1.0f));
   }
 };
+
+// The share, by channel, of an event at z_1 that takes part where the light is visible to `mask`
+// alone: `diffuse` of its `value` is due to diffuse lobes. As in Cycles, translucent lobes see a
+// light as the others of these do.
+inline Rgb lit_share(Rgb value, Rgb diffuse, bool transmitted, RayMask mask) {
+  const bool rest = contains(mask, transmitted ? RayType::Transmission : RayType::Glossy);
+  if (contains(mask, RayType::Diffuse) == rest) {
+    return Rgb(rest ? 1.0f : 0.0f);
+  }
+  Rgb share(rest ? 1.0f : 0.0f);
+  for (int c = 0; c < 3; ++c) {
+    if (diffuse[c] > 0.0f) {
+      const float part = std::min(diffuse[c] / value[c], 1.0f);
+      share[c] = rest ? 1.0f - part : part;
+    }
+  }
+  return share;
+}
 
 // Bounces of a part of a path by label.
 struct BounceCounts {

@@ -193,7 +193,7 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
     camera_vertices.push_back(v);
     const int j = static_cast<int>(camera_vertices.size());
     if (counts.nee > 0.0f && scene.light_sampler.illuminates()) {
-      if (const auto nee = connect_to_light(scene, v, mis, walk_sampler)) {
+      if (const auto nee = connect_to_light(scene, v, mis, settings, walk_sampler)) {
         FullPath path = join({}, 0, camera_vertices, j);
         set_light(path, nee->end);
         path.camera = camera_vertices[0].camera_end;

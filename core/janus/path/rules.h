@@ -53,11 +53,14 @@ struct PathRules {
   int max_edges = 14;     // edges of a whole path; Cycles' max_bounces + 2
   int max_crossings = 8;  // of transparent surfaces on a whole path
   BounceCaps caps;
+  bool ray_types = false;  // Scene::has_ray_types: what is met depends on the labels
 
   // Can a limit by label forbid a path of so many edges?
   bool caps_bind(int edges) const { return edges - 2 > caps.least(); }
   // Or any path at all? If not, nobody needs to count.
   bool counts() const { return caps_bind(max_edges); }
+  // Must walks know their labels?
+  bool labels() const { return ray_types || counts(); }
 };
 
 }  // namespace janus

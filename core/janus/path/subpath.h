@@ -31,7 +31,14 @@ struct WalkStep {
   ClassSums behind;
   Rgb beta;
   float cos_previous;
-  RayType label = RayType::Diffuse;  // if the rules count
+  RayType label = RayType::Diffuse;  // if PathRules::labels()
+  // Of the vertex, for the light that comes next; if PathRules::ray_types.
+  Rgb value = Rgb(1.0f), diffuse = Rgb(0.0f);
+  bool transmitted = false;
+
+  Rgb lit_share(RayMask visibility) const {
+    return janus::lit_share(value, diffuse, transmitted, visibility);
+  }
 };
 
 // Scatters at `v`, applies roulette and writes `step`. `start`: throughput 1 of this walk;
@@ -45,6 +52,22 @@ inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, Trans
     return false;
   }
   Rgb beta = v.beta * sample->weight;
+  if (settings.labels()) {
+    LabelShares shares = LabelShares::sampled(*sample);
+    if (settings.ray_types) {
+      step.value = sample->weight;
+      step.diffuse = sample->diffuse;
+      step.transmitted = sample->transmitted;
+      if (mode == TransportMode::Importance) {
+        shares = shares.within(v.possible_labels(sample->delta));
+        beta *= shares.sum() * (v.edges == 1 ? step.lit_share(v.source) : Rgb(1.0f));
+      }
+    }
+    if (shares.sum() == 0.0f) {
+      return false;
+    }
+    step.label = shares.draw(sampler);
+  }
   eta_scale *= sample->eta_scale;
   const float q = settings.roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
   if (is_black(beta) || !is_finite(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
@@ -58,10 +81,24 @@ inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, Trans
   step.behind = mis.behind(v.mis, sample->delta, sample->pdf_reverse);
   step.beta = beta / q;
   step.cos_previous = std::abs(dot(d, v.hit.ng));
-  if (settings.counts()) {
-    step.label = LabelShares::sampled(*sample).draw(sampler);
-  }
   return true;
+}
+
+// The next segment of a light subpath, of one of the `possible` types, to `v`.
+inline bool fly_from_light(const Scene& scene, const Ray& ray, RayMask possible,
+                           const WalkSettings& settings, Sampler& sampler, uint64_t& rays,
+                           PathVertex& v) {
+  if (!settings.ray_types) {
+    return fly(scene, ray, RayType::Shadow, settings.max_crossings, sampler, rays, v,
+               [](float, float, bool) {});
+  }
+  if (possible == 0) {
+    return false;
+  }
+  const DrawnTypes drawn = draw_types(*scene.accel, possible, sampler);
+  v.segment = drawn.types;
+  v.beta /= drawn.pmf;
+  return fly_past(scene, ray, first_type(drawn.types), settings.max_crossings, sampler, rays, v);
 }
 
 inline bool usable_density(float pdf) { return pdf > 0.0f && std::isfinite(pdf); }
@@ -81,15 +118,17 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     return;
   }
   const float pmf = scene.light_sampler.pmf_emission(index);
-  const auto nothing = [](float, float, bool) {};
-
   PathVertex v;
   v.beta = emission->weight / pmf;
   v.edges = 1;
   v.crossings = 0;
   const float start = max_component(v.beta);
+  v.source = light.visibility;
+  // What a mirror shows of the light is no shadow ray.
+  constexpr RayMask kDeltas = ray_bit(RayType::Glossy) | ray_bit(RayType::Transmission);
+  const RayMask types = ray_bit(RayType::Shadow) | (scene.has_deltas ? kDeltas : 0);
   const Ray ray{emission->origin, emission->direction};
-  if (!fly(scene, ray, settings.max_crossings, sampler, counters.light_rays, v, nothing)) {
+  if (!fly_from_light(scene, ray, types, settings, sampler, counters.light_rays, v)) {
     return;
   }
   v.back = -ray.direction;
@@ -98,8 +137,8 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     return;
   }
   if (*endpoint != emission->origin) {
-    v.beta *=
-        scene.transmittance(*endpoint, emission->origin, settings.max_crossings - v.crossings);
+    v.beta *= scene.transmittance(*endpoint, emission->origin, first_type(v.segment),
+                                  settings.max_crossings - v.crossings);
   }
   const float joint = pmf * emission_density(emission->density, std::abs(dot(v.back, v.hit.ng)),
                                              length2(v.hit.p - *endpoint));
@@ -131,7 +170,8 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     }
     v.beta = step.beta;
     const vec3 previous = v.hit.p;
-    if (!fly(scene, step.ray, settings.max_crossings, sampler, counters.light_rays, v, nothing)) {
+    if (!fly_from_light(scene, step.ray, v.visibility & kLabels, settings, sampler,
+                        counters.light_rays, v)) {
       return;
     }
     const float d2 = length2(v.hit.p - previous);
@@ -165,12 +205,20 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
   float eta_scale = 1.0f, alpha = 1.0f;
   for (v.edges = 1;; ++v.edges) {
     const Ray& ray = step.ray;
-    const auto found = [&](size_t index, const LightHit& hit) {
+    const RayType type = v.edges == 1 ? RayType::Camera : step.label;
+    // Is the light ahead seen otherwise than the next vertex?
+    const bool shadow_ray = settings.ray_types && v.edges > 1 && !step.left.delta &&
+                            !scene.accel->alike(type, RayType::Shadow);
+    const auto found = [&](size_t index, const LightHit& hit, Rgb beta) {
+      const Light& light = *scene.lights[index];
       if (v.edges == 1) {
-        if (scene.lights[index]->visible_camera) {
-          on_light(LightFound{index, hit, v.beta, 1, {}, {}, {}});
+        if (contains(light.visibility, RayType::Camera)) {
+          on_light(LightFound{index, hit, beta, 1, {}, {}, {}});
         }
         return;
+      }
+      if (settings.ray_types) {
+        beta *= step.lit_share(light.visibility);
       }
       const float joint = scene.light_sampler.pmf_emission(index) *
                           emission_density(hit.emission, step.cos_previous, hit.distance2);
@@ -179,32 +227,35 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
       on_light(LightFound{
           index,
           hit,
-          v.beta,
+          beta,
           v.edges,
           mis.weight_hit(step.left.pdf_solid, step.left.delta, pdf_nee, joint, step.behind),
           {joint, pdf_nee, true, ray.direction},
           step.left});
     };
     const auto on_segment = [&](float t_begin, float t_end, bool surface) {
-      const Ray up_to{ray.origin, ray.direction, t_end};
-      scene.lamp_index.for_each_on_ray(up_to, [&](size_t lamp) {
-        const Light& light = *scene.lights[lamp];
-        const float t_max = light.infinite() && !surface ? kInfinity : t_end;
-        const auto light_hit = light.intersect(Ray{ray.origin, ray.direction, t_max});
-        if (light_hit && light_hit->t > t_begin) {
-          found(lamp, *light_hit);
-        }
-      });
+      if (shadow_ray) {
+        return;
+      }
+      lamps_between(scene, ray, t_begin, t_end, surface,
+                    [&](size_t lamp, const LightHit& hit) { found(lamp, hit, v.beta); });
       if (!surface) {
         alpha = v.edges == 1 ? 1.0f - average(v.beta) : alpha;
       } else if (!is_black(v.shading.emission)) {
         size_t index;
         if (const MeshLight* light = scene.mesh_light(v.hit, index)) {
-          found(index, light->at(v.hit, previous.p, ray.direction, v.shading.emission));
+          found(index, light->at(v.hit, previous.p, ray.direction, v.shading.emission), v.beta);
         }
       }
     };
-    if (!fly(scene, ray, settings.max_crossings, sampler, counters.camera_rays, v, on_segment)) {
+    if (shadow_ray) {
+      look_for_lights(scene, previous.p, ray, v.crossings, settings.max_crossings,
+                      counters.camera_rays, [&](size_t index, const LightHit& hit, Rgb through) {
+                        found(index, hit, v.beta * through);
+                      });
+    }
+    if (!fly(scene, ray, type, settings.max_crossings, sampler, counters.camera_rays, v,
+             on_segment)) {
       return alpha;
     }
     v.back = -ray.direction;

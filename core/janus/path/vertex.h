@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "janus/camera/camera.h"
 #include "janus/path/mis.h"
 #include "janus/path/rules.h"
 #include "janus/render/scene.h"
@@ -37,14 +38,27 @@ struct PathVertex {
   vec3 back;  // unit direction to the previous vertex: wi on light, wo on camera subpaths
   Rgb beta;   // light: flux that arrives; camera: throughput
   MisState mis;
-  int edges;             // from the start of the subpath
-  int crossings;         // of transparent surfaces since the start of the subpath
-  BounceCounts bounces;  // at the vertices before this one, if PathRules::counts()
-  Departure previous;    // how the walk left the vertex before (edges > 1)
+  int edges;                      // from the start of the subpath
+  int crossings;                  // of transparent surfaces since the start of the subpath
+  BounceCounts bounces;           // at the vertices before this one, if PathRules::counts()
+  Departure previous;             // how the walk left the vertex before (edges > 1)
+  RayMask visibility = kAllRays;  // of its object, if PathRules::ray_types
+  // Light subpaths, if PathRules::ray_types: what sees the light, and the types that were drawn for
+  // the segment that led here. The vertex has to turn out to be of one of them.
+  RayMask source = kAllRays, segment = kAllRays;
   LightEnd light_end;    // light subpaths: their start
   CameraEnd camera_end;  // camera subpaths: theirs
 
   BsdfView bsdf() const { return shading.bsdf.view(hit.ng); }
+
+  // The labels that a vertex of a light subpath may have; `delta`: it scatters by a delta.
+  RayMask possible_labels(bool delta) const {
+    if (edges > 1 || delta) {
+      return segment & kLabels;
+    }
+    constexpr RayMask kBySampling = ray_bit(RayType::Shadow) | ray_bit(RayType::Unblocked);
+    return (segment & kBySampling) != 0 ? kLabels : 0;
+  }
 };
 
 // The vertex as the choice of a light sees it; `side`: a direction on its camera side (or, for a

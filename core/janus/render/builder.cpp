@@ -32,6 +32,8 @@ class Commit {
       program_index_[key] = static_cast<uint32_t>(scene_.programs.size());
       const std::string& name = desc.name.empty() ? key : desc.name;
       scene_.programs.push_back(compile(desc.graph, name, scene_.diagnostics));
+      scene_.has_deltas =
+          scene_.has_deltas || std::ranges::any_of(scene_.programs.back().lobes, is_delta);
     }
   }
 
@@ -54,6 +56,7 @@ class Commit {
       instance.name = name;
       instance.mesh = mesh->second;
       instance.to_world = desc.transform;
+      instance.visibility = desc.visibility;
       const float determinant = glm::determinant(mat3(desc.transform));
       if (!is_finite(desc.transform) || !std::isfinite(determinant) || determinant == 0.0f) {
         warn(name, "its transform is flat or not finite; the object is left out");
@@ -116,9 +119,13 @@ class Commit {
     if (!world.graph) {
       return;
     }
+    const auto add = [&](std::unique_ptr<Light> light) {
+      light->visibility = world.visibility;
+      add_light(std::move(light));
+    };
     if (auto map = compile_world_map(world, images, scene_.diagnostics)) {
       if (!map->black()) {
-        add_light(make_environment_light(std::move(*map), surroundings()));
+        add(make_environment_light(std::move(*map), surroundings()));
       }
       return;
     }
@@ -128,11 +135,17 @@ class Commit {
           {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
     }
     if (!is_black(program.emission)) {
-      add_light(make_environment_light(program.emission, surroundings()));
+      add(make_environment_light(program.emission, surroundings()));
     }
   }
 
   void finish() {
+    const auto partial = [](RayMask mask, RayMask of) { return (mask & of) != of; };
+    scene_.has_ray_types =
+        std::ranges::any_of(scene_.instances,
+                            [&](const auto& i) { return partial(i.visibility, kAllRays); }) ||
+        std::ranges::any_of(scene_.lights,
+                            [&](const auto& l) { return partial(l->visibility, kLabels); });
     scene_.lamp_index = LampIndex(scene_.lights, scene_.lamps);
     scene_.light_sampler = LightSampler(scene_.lights);
   }

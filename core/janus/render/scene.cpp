@@ -3,8 +3,8 @@
 
 namespace janus {
 
-Rgb Scene::transmittance_through(vec3 a, vec3 b, int max_crossings) const {
-  if (accel->occluded_opaque(a, b)) {
+Rgb Scene::transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings) const {
+  if (accel->occluded_opaque(a, b, type)) {
     return Rgb(0.0f);
   }
   const float length = glm::length(b - a);
@@ -15,7 +15,7 @@ Rgb Scene::transmittance_through(vec3 a, vec3 b, int max_crossings) const {
   Ray ray{a, d, length - rest};
   SurfaceInteraction hit;
   for (int crossings = 0;; ++crossings) {
-    if (!accel->intersect_transparent(ray, hit)) {
+    if (!accel->intersect_transparent(ray, type, hit)) {
       return result;
     }
     result *= shade(hit).transparency;

@@ -20,13 +20,14 @@ namespace janus {
 // SceneBuilder::commit().
 class Scene {
  public:
-  // The nearest surface, written to `hit`; false: none.
-  bool intersect(const Ray& ray, SurfaceInteraction& hit) const {
-    return accel->intersect(ray, hit);
+  // The nearest surface that rays of `type` meet, written to `hit`; false: none.
+  bool intersect(const Ray& ray, RayType type, SurfaceInteraction& hit) const {
+    return accel->intersect(ray, type, hit);
   }
-  std::optional<SurfaceInteraction> intersect(const Ray& ray) const {
+  std::optional<SurfaceInteraction> intersect(const Ray& ray,
+                                              RayType type = RayType::Camera) const {
     std::optional<SurfaceInteraction> hit(std::in_place);
-    if (!intersect(ray, *hit)) {
+    if (!intersect(ray, type, *hit)) {
       hit.reset();
     }
     return hit;
@@ -34,15 +35,17 @@ class Scene {
   void shade(const SurfaceInteraction& hit, ShadingResult& result) const {
     programs[hit.material].run(hit.ns, result);
   }
-  bool occluded(vec3 a, vec3 b) const { return accel->occluded(a, b); }
+  bool occluded(vec3 a, vec3 b, RayType type = RayType::Shadow) const {
+    return accel->occluded(a, b, type);
+  }
 
-  // What the surfaces on the open segment from `a` to `b` let through; black if one of them is
-  // opaque, or if they are more than `max_crossings`.
-  Rgb transmittance(vec3 a, vec3 b, int max_crossings) const {
+  // What the surfaces that rays of `type` meet on the open segment from `a` to `b` let through;
+  // black if one of them is opaque, or if they are more than `max_crossings`.
+  Rgb transmittance(vec3 a, vec3 b, RayType type, int max_crossings) const {
     if (!has_transparency) {
-      return Rgb(occluded(a, b) ? 0.0f : 1.0f);
+      return Rgb(occluded(a, b, type) ? 0.0f : 1.0f);
     }
-    return transmittance_through(a, b, max_crossings);
+    return transmittance_through(a, b, type, max_crossings);
   }
   ShadingResult shade(const SurfaceInteraction& hit) const {
     return programs[hit.material].run(hit.ns);
@@ -67,11 +70,13 @@ class Scene {
   LampIndex lamp_index;
   LightSampler light_sampler;
   bool has_transparency = false;  // of some surface
+  bool has_deltas = false;        // some surface scatters into single directions
+  bool has_ray_types = false;     // some object or light is not visible to all rays
   CameraDesc camera;
   Diagnostics diagnostics;
 
  private:
-  Rgb transmittance_through(vec3 a, vec3 b, int max_crossings) const;
+  Rgb transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings) const;
 };
 
 }  // namespace janus

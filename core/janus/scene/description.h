@@ -12,6 +12,7 @@
 #include "janus/image/image.h"
 #include "janus/math/vec.h"
 #include "janus/scene/node_graph.h"
+#include "janus/scene/ray_type.h"
 
 namespace janus {
 
@@ -30,6 +31,7 @@ struct InstanceDesc {
   std::string mesh;                                   // key
   mat4 transform = mat4(1.0f);                        // object to world
   std::vector<std::optional<std::string>> materials;  // keys by slot; nullopt: default surface
+  RayMask visibility = kAllRays;                      // the rays that meet it
 };
 
 struct MaterialDesc {
@@ -63,13 +65,14 @@ struct LightDesc {
   float angle = 0.0f;                  // sun; full angle, radians
   float spot_size = 0.785398f, spot_blend = 0.15f;
   bool spot_square = false;
-  bool visible_camera = true;
+  RayMask visibility = kAllRays;   // to the camera, and to labels
   std::optional<NodeGraph> graph;  // the light's own node tree
 };
 
 struct WorldDesc {
   std::string name;
   std::optional<NodeGraph> graph;  // nullopt: black
+  RayMask visibility = kAllRays;   // to the camera, and to labels
 };
 
 enum class CameraType { Perspective, Orthographic, Equirectangular };

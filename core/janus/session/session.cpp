@@ -71,6 +71,7 @@ void RenderSession::run() {
       BounceCaps(settings_.max_diffuse_bounces, settings_.max_glossy_bounces,
                  settings_.max_transmission_bounces);
   integrator_settings.clamp = Clamp(settings_.clamp_direct, settings_.clamp_indirect);
+  integrator_settings.walk.ray_types = scene_->has_ray_types;
   integrator_settings.walk.roulette = settings_.roulette;
   integrator_settings.contribution_roulette = settings_.roulette;
   integrator_settings.only = settings_.technique;

@@ -95,7 +95,7 @@ BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
     const LobeEval e = evaluate_lobe(lobe, ng_, d);
     sum.f += e.f;
     if (!is_ggx(lobe.type)) {
-      sum.diffuse += average(e.f);
+      sum.diffuse += e.f;
     }
     sum.pdf_radiance += pmf(lobe, grazing_o) * e.pdf_radiance;
     sum.pdf_importance += pmf(lobe, grazing_i) * e.pdf_importance;
@@ -157,7 +157,7 @@ std::optional<BsdfSample> BsdfView::sample_direction(const Lobe& lobe, vec3 from
   sample->pdf_reverse = radiance ? e.pdf_importance : e.pdf_radiance;
   sample->delta = false;
   sample->transmitted = dot(from, ng_) * dot(*to, ng_) < 0.0f;
-  sample->share_diffuse = e.diffuse > 0.0f ? e.diffuse / average(e.f) : 0.0f;
+  sample->diffuse = e.diffuse / pdf;
   return sample;
 }
 

@@ -29,8 +29,8 @@ struct BsdfSample {
   // What Russian roulette must divide out of the throughput: the squared ratio of indices that a
   // refraction put into it (1 on camera subpaths, whose f carries no such factor).
   float eta_scale = 1.0f;
-  bool transmitted = false;    // to the other side of Ng
-  float share_diffuse = 0.0f;  // of a reflected value that is no delta: see BsdfEval::diffuse
+  bool transmitted = false;  // to the other side of Ng
+  Rgb diffuse = Rgb(0.0f);   // what diffuse lobes add to `weight`; see BsdfEval::diffuse
 };
 
 // Value and densities for a pair of directions, of the lobes that are not deltas.
@@ -40,8 +40,8 @@ struct BsdfEval {
   Rgb f = Rgb(0.0f);
   // Density with which sample() draws wi from wo in Radiance, and wo from wi in Importance mode.
   float pdf_radiance = 0.0f, pdf_importance = 0.0f;
-  // What diffuse lobes add to f, as a mean over its channels. The rest of a reflection is glossy.
-  float diffuse = 0.0f;
+  // What diffuse lobes add to f, translucent ones among them.
+  Rgb diffuse = Rgb(0.0f);
 };
 
 // A view of lobes at a point with geometric normal `ng` (unit, front side). Lobes of a cache may

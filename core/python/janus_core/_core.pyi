@@ -142,11 +142,16 @@ class SceneBuilder:
         mesh: str,
         transform: npt.ArrayLike,
         materials: Sequence[str | None] = ...,
+        visible_camera: bool = True,
+        visible_diffuse: bool = True,
+        visible_glossy: bool = True,
+        visible_transmission: bool = True,
+        visible_shadow: bool = True,
     ) -> None:
         """Places the mesh with the key `mesh` in the world.
 
         transform: float[4, 4], object to world. materials: a key for each slot, or None for the
-        default surface.
+        default surface. visible_*: the rays that meet it, as in Blender.
         """
     def set_light(
         self,
@@ -170,6 +175,9 @@ class SceneBuilder:
         normalize: bool = True,
         exposure: float = 0.0,
         visible_camera: bool = True,
+        visible_diffuse: bool = True,
+        visible_glossy: bool = True,
+        visible_transmission: bool = True,
         graph: Mapping[str, Any] | None = None,
     ) -> None:
         """A light object, which shines along its -z.
@@ -179,7 +187,16 @@ class SceneBuilder:
         or diameters before the transform. spread: AREA, full angle. angle: SUN, full angle.
         spot_size: full angle. graph: the light's own node tree, as for set_material.
         """
-    def set_world(self, *, name: str, graph: Mapping[str, Any] | None) -> None:
+    def set_world(
+        self,
+        *,
+        name: str,
+        graph: Mapping[str, Any] | None,
+        visible_camera: bool = True,
+        visible_diffuse: bool = True,
+        visible_glossy: bool = True,
+        visible_transmission: bool = True,
+    ) -> None:
         """The background, as for set_material; graph None: black.
 
         A TEX_ENVIRONMENT node with a lat-long image may feed the Background's colour, its vector

@@ -117,24 +117,25 @@ TEST(Accel, OpaqueAndTransparentInstances) {
   }
   const auto scene = kit.build();
   const auto down = [](float z) { return Ray{vec3(0.1f, 0.2f, z), vec3(0, 0, -1)}; };
+  constexpr RayType kRay = RayType::Shadow;
   SurfaceInteraction hit;
-  EXPECT_FALSE(scene->accel->intersect_transparent(down(9), hit));
-  EXPECT_TRUE(scene->accel->occluded_opaque(vec3(0.1f, 0, 2.5f), vec3(0.1f, 0, 1.5f)));
+  EXPECT_FALSE(scene->accel->intersect_transparent(down(9), kRay, hit));
+  EXPECT_TRUE(scene->accel->occluded_opaque(vec3(0.1f, 0, 2.5f), vec3(0.1f, 0, 1.5f), kRay));
 
   std::vector<Instance> instances = scene->instances;
   instances[1].opaque = instances[2].opaque = false;
   const Accel accel(scene->meshes, instances, CancelToken());
-  EXPECT_TRUE(accel.intersect_transparent(down(9), hit) && hit.instance == 2);
-  EXPECT_TRUE(accel.intersect_transparent(down(1.5f), hit) && hit.instance == 1);
-  EXPECT_FALSE(accel.intersect_transparent(down(0.5f), hit));
+  EXPECT_TRUE(accel.intersect_transparent(down(9), kRay, hit) && hit.instance == 2);
+  EXPECT_TRUE(accel.intersect_transparent(down(1.5f), kRay, hit) && hit.instance == 1);
+  EXPECT_FALSE(accel.intersect_transparent(down(0.5f), kRay, hit));
   Ray capped = down(9);
   capped.t_max = 6.9f;
-  EXPECT_FALSE(accel.intersect_transparent(capped, hit));
-  EXPECT_TRUE(accel.intersect(down(9), hit) && hit.instance == 3);
+  EXPECT_FALSE(accel.intersect_transparent(capped, kRay, hit));
+  EXPECT_TRUE(accel.intersect(down(9), kRay, hit) && hit.instance == 3);
   for (int i = 0; i < 4; ++i) {
     const vec3 above(0.1f, 0.2f, i + 0.5f), below(0.1f, 0.2f, i - 0.5f);
-    EXPECT_TRUE(accel.occluded(above, below));
-    EXPECT_EQ(accel.occluded_opaque(above, below), i == 0 || i == 3);
+    EXPECT_TRUE(accel.occluded(above, below, kRay));
+    EXPECT_EQ(accel.occluded_opaque(above, below, kRay), i == 0 || i == 3);
   }
 }
 
@@ -151,7 +152,7 @@ TEST(Accel, InstancesShareTheirMesh) {
     const Accel accel(meshes, instances, CancelToken());
     for (const int i : {0, count / 2, count - 1}) {
       SurfaceInteraction hit;
-      EXPECT_TRUE(accel.intersect(Ray{vec3(3.0f * i, 0, 9), vec3(0, 0, -1)}, hit));
+      EXPECT_TRUE(accel.intersect_any(Ray{vec3(3.0f * i, 0, 9), vec3(0, 0, -1)}, hit));
       EXPECT_EQ(hit.instance, static_cast<uint32_t>(i));
     }
     return accel.bytes();

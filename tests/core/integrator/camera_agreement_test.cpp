@@ -70,7 +70,7 @@ class CameraAgreement : public ::testing::TestWithParam<CameraCase> {
   std::shared_ptr<const Scene> scene() const {
     SceneKit kit = open_box();
     LightDesc lamp = area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 20);
-    lamp.visible_camera = false;  // seen from the side it is most of the noise
+    lamp.visibility = kLabels;  // seen from the side it is most of the noise
     kit.add("block", cuboid({-0.7f, -0.2f, -1}, {-0.2f, 0.4f, 0.1f}), diffuse(Rgb(0.7f)))
         .add("low", cuboid({0.2f, -0.6f, -1}, {0.7f, 0.0f, -0.4f}), diffuse(Rgb(0.2f, 0.5f, 0.8f)))
         .light("l", lamp);

@@ -83,7 +83,7 @@ TEST(Clamp, BoundsEveryTechnique) {
 // than that. (Up to three edges walks play none.)
 TEST(Clamp, RouletteOnContributionsChangesNoExpectation) {
   LightDesc lamp = area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 60);
-  lamp.visible_camera = false;
+  lamp.visibility = kLabels;
   const auto scene = open_box().light("l", lamp).build();
   RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(32));
   settings.max_bounces = 1;

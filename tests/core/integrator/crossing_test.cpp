@@ -205,7 +205,8 @@ TEST(Transparency, EndsOfAShadowRayAreNotCrossed) {
       const SurfaceInteraction a = point(i % 2), b = point(1 - i % 2);
       const vec3 d = b.p - a.p;
       crossed += scene->transmittance(offset_origin(a.p, a.ng, a.offset, d),
-                                      offset_origin(b.p, b.ng, b.offset, -d), 0) != Rgb(1);
+                                      offset_origin(b.p, b.ng, b.offset, -d), RayType::Shadow,
+                                      0) != Rgb(1);
     }
     EXPECT_EQ(crossed, 0) << "over " << distance << " m";
   }

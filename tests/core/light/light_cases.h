@@ -188,7 +188,7 @@ inline const LightCase kLightCases[] = {
 // The first light along the ray.
 inline std::optional<LightHit> hit_light(const Scene& scene, const Ray& ray) {
   const Light& light = *scene.lights[0];
-  const auto surface = light.infinite() ? std::nullopt : scene.intersect(ray);
+  const auto surface = light.infinite() ? std::nullopt : scene.intersect(ray, RayType::Camera);
   if (surface) {
     size_t index;
     const MeshLight* mesh = scene.mesh_light(*surface, index);

@@ -172,8 +172,9 @@ class SceneKit {
 
   // A mesh with one material (no graph: the default surface).
   SceneKit& add(const std::string& name, MeshDesc mesh, std::optional<NodeGraph> material,
-                const mat4& transform = mat4(1.0f)) {
+                const mat4& transform = mat4(1.0f), RayMask visibility = kAllRays) {
     InstanceDesc instance;
+    instance.visibility = visibility;
     instance.mesh = name;
     instance.transform = transform;
     if (material) {

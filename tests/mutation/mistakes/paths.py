@@ -5,7 +5,17 @@ from __future__ import annotations
 
 from mistake import one
 
-from mistakes.sources import BDPT, CAMERAS, CAPS, CONNECT, CROSSINGS, PICTURES, SUBPATH
+from mistakes.sources import (
+    BDPT,
+    CAMERAS,
+    CAPS,
+    CONNECT,
+    CROSSINGS,
+    FLIGHT_APART,
+    PICTURES,
+    RAY_TYPES,
+    SUBPATH,
+)
 
 PATHS = (
     one(
@@ -95,9 +105,73 @@ PATHS = (
         "what the camera does not see is not hit on longer paths either",
         CAMERAS,
         SUBPATH,
-        "const auto found = [&](size_t index, const LightHit& hit) {",
-        "const auto found = [&](size_t index, const LightHit& hit) {"
-        " if (!scene.lights[index]->visible_camera) { return; }",
+        "const Light& light = *scene.lights[index];\n      if (v.edges == 1)",
+        "const Light& light = *scene.lights[index];\n"
+        "      if (!contains(light.visibility, RayType::Camera)) { return; }\n"
+        "      if (v.edges == 1)",
+    ),
+    one(
+        "drawn-type-not-made-up-for",
+        0,
+        "light walks draw the type of a segment and forget the others",
+        RAY_TYPES,
+        SUBPATH,
+        "v.beta /= drawn.pmf;",
+        "",
+    ),
+    one(
+        "label-not-the-drawn-one",
+        0,
+        "a light walk goes on with a label that its segment was not traced for",
+        RAY_TYPES,
+        SUBPATH,
+        "shares = shares.within(v.possible_labels(sample->delta));",
+        "",
+    ),
+    one(
+        "cached-label-not-the-drawn-one",
+        0,
+        "the same for the vertices of the cache",
+        RAY_TYPES,
+        CONNECT,
+        "light_label = light_label.within(l.labels);",
+        "",
+    ),
+    one(
+        "unseen-vertices-joined",
+        0,
+        "connections join objects that the label of the camera side does not see",
+        RAY_TYPES,
+        CONNECT,
+        "camera_label = camera_label.within(l.seen_by);",
+        "",
+    ),
+    one(
+        "vertices-only-where-they-block",
+        0,
+        "light walks do not stop at surfaces that their own rays do not meet",
+        RAY_TYPES,
+        FLIGHT_APART,
+        "(may_end ? v.shading.bsdf.albedo() : 0.0f)",
+        "(may_end && blocks ? v.shading.bsdf.albedo() : 0.0f)",
+    ),
+    one(
+        "hits-behind-what-shadow-rays-pass",
+        0,
+        "a light that a walk finds is hidden by what shadow rays do not meet",
+        RAY_TYPES,
+        SUBPATH,
+        "!scene.accel->alike(type, RayType::Shadow)",
+        "false",
+    ),
+    one(
+        "lights-seen-by-every-label",
+        0,
+        "connections forget what the light is visible to",
+        RAY_TYPES,
+        CONNECT,
+        "l.beta * lit * scale",
+        "l.beta * scale",
     ),
     one(
         "emission-only-at-vertices",

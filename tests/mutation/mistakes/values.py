@@ -146,8 +146,8 @@ VALUES = (
         "a film position chosen among several is not made up for the others",
         CAMERAS,
         CONNECT,
-        "(share * importance / to_camera->pmf);",
-        "(share * importance);",
+        "* (importance / to_camera->pmf);",
+        "* importance;",
     ),
     one(
         "splats-through-the-lens-centre",
@@ -164,7 +164,7 @@ VALUES = (
         "a splat counts in full where a limit of bounces allows only some of its labels",
         CAPS,
         CONNECT,
-        "v.beta * e.f * (share * importance",
+        "v.beta * e.f * share * (importance",
         "v.beta * e.f * (importance",
     ),
     one(
