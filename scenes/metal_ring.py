@@ -32,14 +32,19 @@ def ring(scene, name: str, radius: float, width: float, material) -> bpy.types.O
     return kit.lathe(scene, name, profile, material, 360)
 
 
+def metal(name: str, color: kit.Color) -> bpy.types.Material:
+    """Polished, but worn: rough enough that light reflected by one ring is found in the other."""
+    return kit.shader(name, "BsdfAnisotropic", "GGX", Color=(*color, 1.0), Roughness=0.12)
+
+
 def build(scene: bpy.types.Scene) -> None:
     kit.clear(scene)
     kit.neutral_settings(scene, WIDTH, HEIGHT, SAMPLES)
     kit.view(scene, "AgX", "AgX - Medium High Contrast")
     kit.world(scene, (0.30, 0.42, 0.60), 0.2)
 
-    gold = kit.metal("Gold", (1.0, 0.70, 0.28))
-    rose = kit.metal("Rose gold", (0.96, 0.60, 0.44))
+    gold = metal("Gold", (1.0, 0.70, 0.28))
+    rose = metal("Rose gold", (0.96, 0.60, 0.44))
     table = kit.diffuse("Table", (0.44, 0.36, 0.30))
     kit.quad(scene, "Table", [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], table)
 
@@ -50,5 +55,8 @@ def build(scene: bpy.types.Scene) -> None:
     props.place(small, (0.040, -0.014, 0.0178), 62.0, 47.0)
 
     lamp = (0.18, 0.15, 0.19)
-    kit.area_light(scene, "Lamp", lamp, (0.0, 0.0, 0.0), (0.01, 0.01), 2.6, (1.0, 0.90, 0.76))
+    kit.area_light(
+        *(scene, "Lamp", lamp, (0.0, 0.0, 0.0), (0.01, 0.01), 0.8, (1.0, 0.90, 0.76)),
+        spread=70.0,
+    )
     kit.camera(scene, (-0.03, -0.20, 0.17), (0.006, -0.002, 0.002), lens=62.0)

@@ -30,7 +30,7 @@ def house(scene: bpy.types.Scene) -> None:
     front.location = (-LENGTH / 2, 0.0, 0.0)
     back = props.wall(scene, "Back", (LENGTH, 0.3, EAVES), render)
     back.location = (-LENGTH / 2, DEPTH - 0.3, 0.0)
-    for name, x in (("Left gable", -LENGTH / 2), ("Right gable", LENGTH / 2)):
+    for name, x in (("Left gable", -LENGTH / 2 - 2e-3), ("Right gable", LENGTH / 2 + 2e-3)):
         points = [(x, 0, 0), (x, DEPTH, 0), (x, DEPTH, EAVES), (x, DEPTH / 2, RIDGE), (x, 0, EAVES)]
         kit.mesh_object(scene, name, points, [(0, 1, 2, 3, 4)], render)
     glazing = props.principled("Glazing", (0.03, 0.04, 0.05), 0.05)

@@ -49,13 +49,13 @@ class CapturedScene:
             self.arguments += ["--max-bounces", str(bounces)]
         if filter_ is not None:
             self.arguments += ["--filter", filter_]
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "scene.npz"
-            command = [sys.executable, str(ROOT / "scenes" / "render.py"), *self.arguments]
-            command += ["--samples", "1", "--capture", str(path)]
-            command += ["--output", str(path.with_suffix(".exr"))]
-            subprocess.run(command, check=True, stdout=subprocess.DEVNULL, timeout=600)
-            builder, self.settings = capture.load(path)
+        self._folder = tempfile.TemporaryDirectory()
+        self.path = Path(self._folder.name) / "scene.npz"
+        command = [sys.executable, str(ROOT / "scenes" / "render.py"), *self.arguments]
+        command += ["--samples", "1", "--capture", str(self.path)]
+        command += ["--output", str(self.path.with_suffix(".exr"))]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, timeout=600)
+        builder, self.settings = capture.load(self.path)
         self.scene = builder.commit()
         self.pixels = size * size
 
@@ -127,6 +127,45 @@ class Cycles:
     def close(self) -> None:
         self._process.stdin.close()
         self._process.wait(timeout=60)
+
+
+class Peer:
+    """Another renderer, in a process of its own: a service that speaks _peer.py's protocol.
+
+    Raises Unavailable where it is not installed, or cannot be given exactly the same scene.
+    """
+
+    def __init__(self, service: str, python: str, scene: CapturedScene, threads: int) -> None:
+        script = Path(__file__).with_name(service)
+        self._process = subprocess.Popen(
+            [python, str(script), str(scene.path), str(threads)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        self._folder = tempfile.TemporaryDirectory()
+        for line in self._process.stdout:  # libraries may print before they can be stopped
+            if line.startswith("cannot: "):
+                raise Unavailable(line.removeprefix("cannot: ").strip())
+            if line.strip() == "ready":
+                return
+        raise Unavailable("not installed, or it does not start")
+
+    def shot(self, seconds: float, seed: int) -> Shot:
+        path = Path(self._folder.name) / "peer.npy"
+        wanted = {"seconds": seconds, "seed": seed, "output": str(path)}
+        print(json.dumps(wanted), file=self._process.stdin, flush=True)
+        took = json.loads(self._process.stdout.readline())
+        return Shot(np.load(path), took["samples"], took["seconds"], took["cpu"])
+
+    def close(self) -> None:
+        self._process.stdin.close()
+        self._process.wait(timeout=60)
+
+
+class Unavailable(Exception):
+    """A renderer that cannot take part, and why."""
 
 
 def spread(values: list[float]) -> float:

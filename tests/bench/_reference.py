@@ -8,6 +8,7 @@ large as the error of their mean, so that its relMSE is known without a better p
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,15 +35,19 @@ def squared_errors(
     return np.mean((picture - reference) ** 2 / (scale**2 + epsilon), axis=2)
 
 
-def relative_error(
-    picture: np.ndarray, reference: np.ndarray, scale: np.ndarray | None = None
-) -> float:
-    """relMSE without the thousandth of the pixels where it is largest.
+def relative_error(*pictures: np.ndarray) -> float:
+    """relMSE: the mean of squared_errors()."""
+    return float(squared_errors(*pictures).mean())
 
-    A single path that nobody can sample (a caustic seen in a mirror) can be larger than all other
-    errors together; what was left would tell nothing of the picture, and only who was lucky.
+
+def trimmed_error(*pictures: np.ndarray) -> float:
+    """The same without the thousandth of the pixels where it is largest.
+
+    A single path that is found by chance alone (a caustic seen in a mirror) can be larger than
+    all other errors together, and tells who was lucky. But neither does this see all the light
+    that an engine is missing, if it has it in few pixels.
     """
-    errors = np.sort(squared_errors(picture, reference, scale), axis=None)
+    errors = np.sort(squared_errors(*pictures), axis=None)
     return float(errors[: len(errors) - round(DROPPED * len(errors))].mean())
 
 
@@ -78,14 +83,14 @@ class References:
     def picture(self, kind: str) -> np.ndarray:
         return self._halves[kind].mean(axis=0)
 
-    def error(self, kind: str) -> float:
+    def error(self, kind: str, of: Callable[..., float] = relative_error) -> float:
         first, second = self._halves[kind]
-        return relative_error((first - second) / 2, np.zeros_like(first), self._scale())
+        return of((first - second) / 2, np.zeros_like(first), self._scale())
 
     def differ(self, one: str, other: str) -> tuple[float, float]:
-        """(relMSE between two renderers' pictures, what their own errors explain of it)."""
-        seen = relative_error(self.picture(one), self.picture(other), self._scale())
-        return seen, self.error(one) + self.error(other)
+        """(trimmed error between two renderers' pictures, what their own explain of it)."""
+        seen = trimmed_error(self.picture(one), self.picture(other), self._scale())
+        return seen, sum(self.error(kind, trimmed_error) for kind in (one, other))
 
     def _scale(self) -> np.ndarray:
         """The brightness of pixels, without what only one of the renderers found by chance."""
@@ -103,8 +108,10 @@ class References:
         weights = {kind: 1.0 / max(self.error(kind), 1e-12) for kind in ("pt", "cycles")}
         total = sum(weights.values())
         both = sum(self.picture(kind) * w for kind, w in weights.items()) / total
-        found = Reference(both, "pt + Cycles", 1.0 / total, 1.0 / total <= 0.1 * measured(both))
+        found = Reference(
+            both, "pt + Cycles", 1.0 / total, bool(1.0 / total <= 0.1 * measured(both))
+        )
         if found.good and self.agree("pt", "cycles"):
             return found
         own, error = self.picture("bdpt"), self.error("bdpt")
-        return Reference(own, "bdpt", error, error <= 0.1 * measured(own))
+        return Reference(own, "bdpt", error, bool(error <= 0.1 * measured(own)))

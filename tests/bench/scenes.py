@@ -2,22 +2,26 @@
 """Error at equal time on ten scenes: Janus beside Cycles; `./dev bench scenes`.
 
 Everything renders 128 x 128 pixels with two threads for eight seconds, with five seeds and a box
-filter, which every renderer has; bdpt finds
-its counts by itself, as in Blender. Cycles has its light tree on, and of its renders with and
-without path guiding the better ones count. All engines alternate, seed by seed, because a machine
-is never quiet.
+filter, which every renderer has; bdpt finds its counts by itself, as in Blender. Cycles has its
+light tree on, and of its renders with and without path guiding the better ones count. All engines
+alternate, seed by seed, because a machine is never quiet. All ten scenes take two and a half hours
+the first time, and then, with their references on disk, half an hour.
 
-The error is relMSE, with the formula of _reference.py and without the thousandth of the pixels
-where it is largest, as mean over the seeds. A second table has that of all pixels, which tells
-little where some path is found by chance alone (a caustic behind glass): whoever is lucky enough
-never to find it wins.
+The error is relMSE, with the formula of _reference.py, as mean over the seeds. A second table has
+it without the thousandth of the pixels where it is largest. Neither tells all where some path is
+found by chance alone (a caustic behind glass): in the first, who is lucky enough never to find it
+wins; in the second, who has all the light of a caustic in few pixels.
+
+LuxCore's BIDIR (roulette off, as it is biased with it) and Mitsuba's path tracer take part where
+the scene is so plain that they can be given exactly the same (_plain.py), if `--peers` names a
+Python that has them: `pip install pyluxcore mitsuba` in a virtual environment of their own.
 
 Export and building are in no engine's time. Janus has a clock of its own for that. Cycles renders
 a number of samples, and what a render of one sample takes is subtracted: its own time limit would
 only be looked at between batches of samples that grow, and would hide how long the last one was.
 No engine ends exactly on time: an error is scaled by (time taken) / (time given), as that of
 independent samples. With `--clock cpu` the time is that of the processors over the number of
-threads, for a machine that others use as well.
+threads: renders take as long as they need for it on a machine that others use as well.
 
 Floors are what the project wants; a number below its floor is marked and is no failure.
 """
@@ -26,56 +30,64 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-from _measure import CapturedScene, Cycles, Shot
-from _reference import KINDS, Reference, References, relative_error, squared_errors
+from _measure import CapturedScene, Cycles, Peer, Shot, Unavailable
+from _reference import KINDS, Reference, References, relative_error, trimmed_error
 
 SCENES = (
     *("hero", "hidden_light", "metal_ring", "ajar_door", "pool"),
     *("many_lights", "hdri_interior", "cornell_box", "studio", "sunlit_exterior"),
 )
-HARD = ("hidden_light", "hero", "metal_ring")  # at least 3 times better than Cycles
+HARD = ("hidden_light", "hero", "metal_ring")  # at least 3 times better than the best peer
 EASY = ("studio", "sunlit_exterior")  # at most 1.1 times worse than Cycles and than our own pt
 HARD_FLOOR, EASY_FLOOR = 3.0, 1.1
-ENGINES = ("bdpt", "pt", "cycles", "guided")
+ENGINES = ("bdpt", "pt", "cycles", "guided", "luxcore", "mitsuba")
+SERVICES = {"luxcore": "_luxcore.py", "mitsuba": "_mitsuba.py"}
+MAX_STRETCH = 8.0
 FIRST_SEED = {"bdpt": 100, "pt": 200, "cycles": 300, "guided": 400, "reference": 500}
+FIRST_SEED |= {"luxcore": 600, "mitsuba": 700}
 
 
 @dataclass
 class Row:
-    """A scene. Errors by engine, their standard errors (relative), and rates in M samples/s.
+    """A scene. By engine: errors, their standard errors (relative), rates in M samples/s, and how
+    bright all its pictures together are beside the reference.
 
-    `whole`: errors with all pixels.
+    An engine that does not take part is not in them.
     """
 
     scene: str
     reference: Reference
     errors: dict[str, float]
-    whole: dict[str, float]
+    trimmed: dict[str, float]
     spreads: dict[str, float]
     rates: dict[str, float]
+    brightness: dict[str, float]
     notes: list[str]
 
-    @property
+    def best(self, *engines: str) -> str:
+        return min(self.errors.keys() & set(engines), key=self.errors.__getitem__)
+
     def peer(self) -> str:
-        return min(("cycles", "guided"), key=self.errors.__getitem__)
+        return self.best(*ENGINES[2:])
 
     def ratio(self, engine: str) -> tuple[float, float]:
         """(error over that of bdpt, its standard error): above 1, bdpt is better."""
         ratio = self.errors[engine] / self.errors["bdpt"]
-        return ratio, ratio * float(np.hypot(self.spreads[engine], self.spreads["bdpt"]))
+        return ratio, ratio * math.hypot(self.spreads[engine], self.spreads["bdpt"])
 
     def floors(self) -> list[tuple[str, bool]]:
         if self.scene in HARD:
-            return [(f"{HARD_FLOOR:g} x Cycles", self.ratio(self.peer)[0] >= HARD_FLOOR)]
+            return [(f"{HARD_FLOOR:g} x the best peer", self.ratio(self.peer())[0] >= HARD_FLOOR)]
         if self.scene in EASY:
             return [
                 (f"1/{EASY_FLOOR:g} of {name}", self.ratio(engine)[0] >= 1.0 / EASY_FLOOR)
-                for engine, name in ((self.peer, "Cycles"), ("pt", "pt"))
+                for engine, name in ((self.best("cycles", "guided"), "Cycles"), ("pt", "pt"))
             ]
         return []
 
@@ -90,20 +102,37 @@ class Bench:
         for guiding in (False, True):  # kernels load
             self.cycles.render(1, 0, guiding)
         self._calibrated: dict[bool, tuple[dict, float]] = {}
+        self._stretch = 1.0  # wall time of a second of our clock, lately
+        self.peers: dict[str, Peer] = {}
+        self.absent: list[str] = []  # peers that do not take part, and why
+        for name, service in SERVICES.items() if options.peers else ():
+            try:
+                self.peers[name] = Peer(service, options.peers, self.captured, options.threads)
+            except Unavailable as reason:
+                self.absent.append(f"{name}: {reason}")
 
     def close(self) -> None:
-        self.cycles.close()
+        for service in (self.cycles, *self.peers.values()):
+            service.close()
 
     def shot(self, engine: str, seconds: float, seed: int) -> Shot:
-        if engine in ("bdpt", "pt"):
-            return self.captured.shot(seconds, integrator=engine, seed=seed)
-        guiding = engine == "guided"
+        if engine in ("cycles", "guided"):
+            shot = self._cycles_shot(engine == "guided", seconds, seed)
+        elif engine in self.peers:
+            shot = self.peers[engine].shot(seconds * self._stretch, seed)
+        else:
+            wall = seconds * self._stretch
+            shot = self.captured.shot(wall, integrator=engine, seed=seed)
+        self._stretch = min(max(shot.seconds / self.clock(shot), 1.0), MAX_STRETCH)
+        return shot
+
+    def _cycles_shot(self, guiding: bool, seconds: float, seed: int) -> Shot:
         if guiding not in self._calibrated:
             self._calibrate(guiding)
         none, rate = self._calibrated[guiding]
         shot = self.cycles.shot(max(round(rate * seconds), 2), none, seed, guiding)
         # The next one is as long as this one says: the machine may be another than a while ago.
-        self._calibrated[guiding] = (none, shot.samples / shot.seconds)
+        self._calibrated[guiding] = (none, shot.samples / self.clock(shot))
         return shot
 
     def _calibrate(self, guiding: bool) -> None:
@@ -113,8 +142,9 @@ class Bench:
         samples, seconds = 4, 0.0
         while seconds < 0.15 * self.options.seconds:
             samples *= 2
-            seconds = self.cycles.render(samples, 0, guiding)["seconds"] - none["seconds"]
-        self._calibrated[guiding] = (none, (samples - 1) / seconds)
+            shot = self.cycles.shot(samples, none, 0, guiding)
+            seconds = self.clock(shot)
+        self._calibrated[guiding] = (none, samples / seconds)
 
     def references(self) -> References:
         options = self.options
@@ -131,10 +161,11 @@ class Bench:
 
     def run(self) -> Row:
         references = self.references()
-        shots: dict[str, list[Shot]] = {engine: [] for engine in ENGINES}
+        engines = [name for name in ENGINES if name not in SERVICES or name in self.peers]
+        shots: dict[str, list[Shot]] = {engine: [] for engine in engines}
         for turn in range(self.options.seeds):
             self.say(f"{self.name}: seed {turn + 1} of {self.options.seeds}")
-            for engine in ENGINES:
+            for engine in engines:
                 seed = FIRST_SEED[engine] + turn
                 shots[engine].append(self.shot(engine, self.options.seconds, seed))
 
@@ -149,15 +180,20 @@ class Bench:
             lambda picture: min(found.mean() for found in errors(picture).values())
         )
         found = errors(reference.picture)
-        whole = errors(reference.picture, lambda *pictures: squared_errors(*pictures).mean())
-        means = lambda all_: {engine: float(v.mean()) for engine, v in all_.items()}  # noqa: E731
         spreads = {
-            engine: float(values.std(ddof=1) / np.sqrt(len(values)) / values.mean())
+            engine: float(values.std(ddof=1) / math.sqrt(len(values)) / values.mean())
             for engine, values in found.items()
         }
-        rates = {engine: self.rate(taken) for engine, taken in shots.items()}
-        notes = self.notes(reference, references)
-        return Row(self.name, reference, means(found), means(whole), spreads, rates, notes)
+        return Row(
+            *(self.name, reference, _means(found)),
+            *(_means(errors(reference.picture, trimmed_error)), spreads),
+            {engine: self.rate(taken) for engine, taken in shots.items()},
+            {
+                engine: float(np.mean([s.picture.mean() for s in taken]) / reference.picture.mean())
+                for engine, taken in shots.items()
+            },
+            self.notes(reference, references),
+        )
 
     def rate(self, shots: list[Shot]) -> float:
         samples = self.options.size**2 * sum(shot.samples for shot in shots)
@@ -170,7 +206,7 @@ class Bench:
         return self.clock(shot) / self.options.seconds
 
     def notes(self, reference: Reference, references: References) -> list[str]:
-        notes = []
+        notes = list(self.absent)
         if not reference.good:
             notes.append("the reference's own error is more than a tenth of the smallest one")
         for one, other in (("pt", "cycles"), ("bdpt", "pt"), ("bdpt", "cycles")):
@@ -212,6 +248,7 @@ def arguments() -> argparse.Namespace:
         help="for each of three renderers, once: build/bench-references keeps them; default: 240",
     )
     add("--clock", choices=("wall", "cpu"), default="wall", help="default: wall")
+    add("--peers", metavar="PYTHON", help="a Python that has pyluxcore and mitsuba")
     add("--json", type=Path, metavar="FILE", help="write the numbers there too")
     options = parser.parse_args()
     if options.seeds < 2:
@@ -219,34 +256,50 @@ def arguments() -> argparse.Namespace:
     return options
 
 
+def _means(by_engine: dict[str, np.ndarray]) -> dict[str, float]:
+    return {engine: float(values.mean()) for engine, values in by_engine.items()}
+
+
 def show(rows: list[Row], options: argparse.Namespace) -> None:
     print(f"\nrelMSE after {options.seconds:g} s ({options.clock} clock), ", end="")
     print(f"{options.size} x {options.size}, {options.threads} threads, {options.seeds} seeds\n")
-    line = "{:<16} {:>9} {:>9} {:>9} {:>9}  {:>15} {:>15}  {}"
-    titles = ("scene", "bdpt", "pt", "Cycles", "guided", "Cycles / bdpt", "pt / bdpt", "floors")
-    print(line.format(*titles))
+    line = "{:<16}" + " {:>8}" * len(ENGINES) + "  {:>13} {:>13}  {}"
+    titles = ("bdpt", "pt", "Cycles", "guided", "LuxCore", "Mitsuba", "best / bdpt", "pt / bdpt")
+    print(line.format("scene", *titles, "floors"))
     for row in rows:
         verdicts = [f"{name}: {'PASS' if good else 'FAIL'}" for name, good in row.floors()]
-        ratios = ["{:.2f} +- {:.2f}".format(*row.ratio(engine)) for engine in (row.peer, "pt")]
-        errors = [f"{row.errors[engine]:.2e}" for engine in ENGINES]
-        print(line.format(row.scene, *errors, *ratios, ", ".join(verdicts)).rstrip())
-    print("\nrelMSE of all pixels")
+        ratios = ["{:.2f} +- {:.2f}".format(*row.ratio(engine)) for engine in (row.peer(), "pt")]
+        print(
+            line.format(
+                row.scene, *_cells(row.errors, ".1e"), *ratios, ", ".join(verdicts)
+            ).rstrip()
+        )
+    print("\nwithout the thousandth of the pixels with the largest errors")
     for row in rows:
-        errors = [f"{row.whole[engine]:.2e}" for engine in ENGINES]
-        print(line.format(row.scene, *errors, "", "", "").rstrip())
+        ratios = [
+            f"{row.trimmed[engine] / row.trimmed['bdpt']:.2f}"
+            for engine in (min(row.trimmed.keys() - {"bdpt", "pt"}, key=row.trimmed.get), "pt")
+        ]
+        print(line.format(row.scene, *_cells(row.trimmed, ".1e"), *ratios, "").rstrip())
+    print("\nbrightness beside the reference's")
+    for row in rows:
+        print(line.format(row.scene, *_cells(row.brightness, ".3f"), "", "", "").rstrip())
     print("\nM samples/s, and the reference")
     for row in rows:
-        rates = [f"{row.rates[engine]:.3f}" for engine in ENGINES]
         reference = f"{row.reference.kind}, its own relMSE {row.reference.error:.1e}"
-        print(line.format(row.scene, *rates, "", "", "").rstrip(), " ", reference)
+        print(line.format(row.scene, *_cells(row.rates, ".3f"), "", "", reference))
         for note in row.notes:
             print(f"    {note}")
+
+
+def _cells(values: dict[str, float], form: str) -> list[str]:
+    return [f"{values[name]:{form}}" if name in values else "-" for name in ENGINES]
 
 
 def plain(row: Row) -> dict:
     """A row as JSON, without the picture."""
     reference = {**asdict(row.reference), "picture": None}
-    return {**asdict(row), "reference": reference, "peer": row.peer, "floors": row.floors()}
+    return {**asdict(row), "reference": reference, "peer": row.peer(), "floors": row.floors()}
 
 
 if __name__ == "__main__":
