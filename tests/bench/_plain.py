@@ -111,7 +111,8 @@ def _bodies(mesh: dict, transform: np.ndarray, surfaces: list[Surface]) -> list[
             continue
         if surface.kind == "emission" and not _closed(corners[chosen]):
             raise NotPlain("an open mesh that glows on both sides")
-        bodies.append(Body(positions.astype(np.float32), chosen, normals, surface))
+        shading = None if surface.kind == "emission" else normals  # Mitsuba's light would see them
+        bodies.append(Body(positions.astype(np.float32), chosen, shading, surface))
     return bodies
 
 
