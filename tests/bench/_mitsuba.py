@@ -84,9 +84,10 @@ def _mesh(name: str, body: _plain.Body):
     parameters = mitsuba.traverse(mesh)
     parameters["vertex_positions"] = body.positions.ravel()
     parameters["faces"] = body.triangles.ravel().astype(np.uint32)
-    if body.normals is not None:
-        parameters["vertex_normals"] = body.normals.ravel()
     parameters.update()
+    if body.normals is not None:  # now, as those are computed whenever vertices move
+        parameters["vertex_normals"] = body.normals.ravel()
+        parameters.update()
     return mesh
 
 
