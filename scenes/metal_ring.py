@@ -56,7 +56,7 @@ def build(scene: bpy.types.Scene) -> None:
 
     lamp = (0.18, 0.15, 0.19)
     kit.area_light(
-        *(scene, "Lamp", lamp, (0.0, 0.0, 0.0), (0.01, 0.01), 0.8, (1.0, 0.90, 0.76)),
+        *(scene, "Lamp", lamp, (0.0, 0.0, 0.0), (0.01, 0.01), 0.45, (1.0, 0.90, 0.76)),
         spread=70.0,
     )
     kit.camera(scene, (-0.03, -0.20, 0.17), (0.006, -0.002, 0.002), lens=62.0)
