@@ -24,6 +24,8 @@ def sync_light(builder, key: str, obj, matrix, log) -> None:
         energy=light.energy,
         normalize=getattr(light, "normalize", True),
         exposure=getattr(light, "exposure", 0.0),
+        cast_shadow=light.use_shadow,
+        max_bounces=getattr(getattr(light, "cycles", None), "max_bounces", 1024),
         graph=flatten_tree(light.node_tree) if has_nodes(light) else None,
         **shape(light),
         **seen_by(obj, LIGHT_RAYS),
@@ -70,5 +72,6 @@ def check_light(obj, log) -> None:
     """Names what the core does not know about this light yet."""
     if obj.data.type == "SPOT" and obj.data.use_square:
         log.info("a square spot is round here, as in Cycles", object=obj.name)
-    if not obj.data.use_shadow:
-        log.warning("a light without shadows is not supported, it casts them", object=obj.name)
+    cycles = getattr(obj.data, "cycles", None)
+    if not getattr(cycles, "use_multiple_importance_sampling", True):
+        log.info("mirrors show this light, though its multiple importance is off", object=obj.name)

@@ -27,7 +27,12 @@ class MaterialSync:
         key = f"material:{material.name_full}"
         if key not in self._sent:
             self._sent.add(key)
-            self._builder.set_material(key, name=material.name, graph=self._graph(material))
+            self._builder.set_material(
+                key,
+                name=material.name,
+                graph=self._graph(material),
+                sample_emission=sample_emission(material),
+            )
         return key
 
     def _graph(self, material) -> dict:
@@ -44,3 +49,8 @@ class MaterialSync:
         if output and output.inputs["Displacement"].is_linked:
             self._log.warning("displacement is not supported yet", material=material.name)
         return flatten_tree(tree)
+
+
+def sample_emission(material) -> bool:
+    """Shall lights be looked for on it? Cycles' other choices differ in noise alone."""
+    return getattr(getattr(material, "cycles", None), "emission_sampling", "AUTO") != "NONE"

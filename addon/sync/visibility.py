@@ -20,9 +20,19 @@ def check_scene(depsgraph, log) -> None:
         log.info(notice)
     if render.use_motion_blur:
         log.warning("Motion blur is not supported yet")
+    _check_film(depsgraph.scene_eval, log)
     if render.use_multiview:
         log.warning("Stereoscopy is not supported, all views show the same picture")
     _check_collections(depsgraph.view_layer.layer_collection, log)
+
+
+def _check_film(scene, log) -> None:
+    """What Cycles keeps of the film."""
+    cycles = getattr(scene, "cycles", None)
+    if getattr(cycles, "film_exposure", 1.0) != 1.0:
+        log.warning("The exposure of Cycles' film is not supported yet, 1 is used")
+    if scene.render.film_transparent and getattr(cycles, "film_transparent_glass", False):
+        log.warning("Transparent glass on a transparent film is not supported yet")
 
 
 def _check_collections(layer_collection, log) -> None:

@@ -23,6 +23,8 @@ def sync_world(builder, depsgraph, log) -> None:
         send_images(builder, graph, world, log)
     else:
         graph = background_graph(world.color)
+    if getattr(getattr(world, "cycles", None), "max_bounces", 1024) < 1024:
+        log.warning("the world's own limit of bounces is not supported yet", object=world.name)
     builder.set_world(name=world.name, graph=graph, **seen_by_world(world))
 
 

@@ -186,7 +186,7 @@ void set_light(SceneBuilder& self, Key key, std::string name, const std::string&
                float radius, bool soft_falloff, const std::string& shape, float size, float size_y,
                float spread, float spot_size, float spot_blend, bool spot_square, float angle,
                bool normalize, float exposure, bool visible_camera, bool visible_diffuse,
-               bool visible_glossy, bool visible_transmission,
+               bool visible_glossy, bool visible_transmission, bool cast_shadow, int max_bounces,
                const std::optional<py::dict>& graph) {
   LightDesc desc;
   desc.name = std::move(name);
@@ -207,6 +207,11 @@ void set_light(SceneBuilder& self, Key key, std::string name, const std::string&
   desc.spot_blend = spot_blend;
   desc.spot_square = spot_square;
   desc.visibility = to_mask(visible_camera, visible_diffuse, visible_glossy, visible_transmission);
+  desc.cast_shadow = cast_shadow;
+  if (max_bounces < 0) {
+    throw SceneError(key, "max_bounces", "must be at least 0");
+  }
+  desc.max_bounces = std::min(max_bounces, 1024);
   if (graph) {
     desc.graph = to_graph(key, *graph);
   }
@@ -346,10 +351,11 @@ void bind_scene(py::module_& m) {
            "(None: slot 0). Arrays are copied.")
       .def(
           "set_material",
-          [](SceneBuilder& self, Key key, std::string name, const py::dict& graph) {
-            self.set_material(key, {std::move(name), to_graph(key, graph)});
+          [](SceneBuilder& self, Key key, std::string name, const py::dict& graph,
+             bool sample_emission) {
+            self.set_material(key, {std::move(name), to_graph(key, graph), sample_emission});
           },
-          "key"_a, py::kw_only(), "name"_a, "graph"_a,
+          "key"_a, py::kw_only(), "name"_a, "graph"_a, "sample_emission"_a = true,
           "A surface, as a flattened node tree: {'nodes': [{'name', 'type', 'inputs', "
           "'properties'}], 'surface': {'link': [node, output]} or None}.")
       .def("set_image", &set_image, "key"_a, py::kw_only(), "name"_a, "pixels"_a, "srgb"_a = false,
@@ -376,7 +382,8 @@ void bind_scene(py::module_& m) {
            "spread"_a = kPi, "spot_size"_a = 0.785398f, "spot_blend"_a = 0.15f,
            "spot_square"_a = false, "angle"_a = 0.0f, "normalize"_a = true, "exposure"_a = 0.0f,
            "visible_camera"_a = true, "visible_diffuse"_a = true, "visible_glossy"_a = true,
-           "visible_transmission"_a = true, "graph"_a = py::none(),
+           "visible_transmission"_a = true, "cast_shadow"_a = true, "max_bounces"_a = 1024,
+           "graph"_a = py::none(),
            "A light object, in Blender's words and units: type POINT, SPOT, SUN or AREA; energy in "
            "watts (sun: W/m^2); angles in radians; shape SQUARE, RECTANGLE, DISK or ELLIPSE.")
       .def(

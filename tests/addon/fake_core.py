@@ -23,9 +23,9 @@ class Recorder:
         assert key not in self.meshes
         self.meshes[key] = self._copy(arguments)
 
-    def set_material(self, key, *, name, graph):
+    def set_material(self, key, **arguments):
         assert key not in self.materials
-        self.materials[key] = {"name": name, "graph": graph}
+        self.materials[key] = arguments
 
     def set_image(self, key, **arguments):
         assert key not in self.images

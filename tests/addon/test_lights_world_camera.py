@@ -6,7 +6,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from conftest import add_light, add_square, messages, part
+from conftest import add_light, add_square, messages, new_material, part
 from mathutils import Matrix, Vector
 
 
@@ -30,6 +30,28 @@ def test_point_light(scene, export):
     assert sent["normalize"] is True and sent["exposure"] == 0.0
     assert sent["visible_camera"] is light.visible_camera
     assert sent["visible_diffuse"] and sent["visible_glossy"] and sent["visible_transmission"]
+
+
+def test_rules_of_lights(scene, export):
+    light = add_light("POINT", "Lamp").data
+    sent = one_light(export())
+    assert sent["cast_shadow"] is True and sent["max_bounces"] == 1024
+    light.use_shadow = False
+    light.cycles.max_bounces = 3
+    light.cycles.use_multiple_importance_sampling = False
+    sent = one_light(export())
+    assert sent["cast_shadow"] is False and sent["max_bounces"] == 3
+    assert not messages()
+    assert any("mirrors show this light" in text for text in messages("INFO"))
+
+
+@pytest.mark.parametrize("method", ["NONE", "AUTO", "FRONT", "BACK", "FRONT_BACK"])
+def test_emission_sampling(scene, export, method):
+    material = new_material()
+    material.cycles.emission_sampling = method
+    add_square().data.materials.append(material)
+    (sent,) = export().materials.values()
+    assert sent["sample_emission"] is (method != "NONE")
 
 
 @pytest.mark.parametrize("ray", ["camera", "diffuse", "glossy", "transmission"])

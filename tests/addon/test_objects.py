@@ -291,7 +291,10 @@ def test_unsupported_things_are_named(scene, export):
         node = material.node_tree.nodes.new(f"ShaderNode{kind}")
         material.node_tree.links.new(node.outputs[0], output.inputs[socket])
     square.data.materials.append(material)
-    add_light("POINT", "Soft").data.use_shadow = False
+    scene.world = bpy.data.worlds.new("Sky")
+    scene.world.cycles.max_bounces = 3
+    scene.cycles.film_exposure = 2.0
+    scene.render.film_transparent = scene.cycles.film_transparent_glass = True
     export()
     text = "\n".join(messages())
     for expected in (
@@ -301,7 +304,9 @@ def test_unsupported_things_are_named(scene, export):
         "Motion blur",
         "Material 'Foggy': volumes",
         "Material 'Foggy': displacement",
-        "Object 'Soft': a light without shadows",
+        "The exposure of Cycles' film",
+        "Transparent glass",
+        "Object 'Sky': the world's own limit of bounces",
     ):
         assert expected in text, text
 

@@ -26,7 +26,13 @@ RAYS = ("camera", *KINDS, "shadow")
 HIDDEN = {f"{thing}_{ray}": (thing, ray) for thing in ("objects", "glow") for ray in RAYS}
 HIDDEN |= {f"{thing}_{ray}": (thing, ray) for thing in ("lamp", "world") for ray in KINDS}
 HIDDEN |= {"world_camera": ("world", "camera")}
-CASES = [*CAPS, *HIDDEN]
+# Name: other rules of the lamp, of its light data.
+LAMP = {
+    "lamp_no_shadow": ("use_shadow", False),
+    "lamp_bounces_0": ("cycles.max_bounces", 0),
+    "lamp_bounces_1": ("cycles.max_bounces", 1),
+}
+CASES = [*CAPS, *HIDDEN, *LAMP]
 
 
 def limits(name: str) -> dict[str, int]:
@@ -71,6 +77,11 @@ def room(scene) -> None:
     kit.camera(scene, (0.3, -4.6, 1.9), (0.0, 0.1, 0.75), lens=50.0)
 
 
+def no_glass(scene) -> None:
+    """Where light shines through the ball: rough glass that is lit from within is darker here."""
+    scene.objects["Ball"].data.materials[0] = scene.objects["Leaf"].data.materials[0]
+
+
 def hide(scene, thing: str, ray: str) -> None:
     """Hides a part of the room from a ray."""
     from scenes import kit
@@ -91,6 +102,8 @@ def hide(scene, thing: str, ray: str) -> None:
             setattr(objects[obj], f"visible_{ray}", False)
     else:
         setattr(objects["Lamp"], f"visible_{ray}", False)
+    if ray == "shadow":
+        no_glass(scene)
     # Of these, Cycles' own rules differ between next event estimation and hits.
     if thing in ("lamp", "world"):
         refraction = kit.shader("Bent", "BsdfRefraction", "GGX", Roughness=0.5, IOR=1.4)
@@ -112,6 +125,13 @@ def build(name: str):
     room(scene)
     if name in HIDDEN:
         hide(scene, *HIDDEN[name])
+    if name in LAMP:
+        data = scene.objects["Lamp"].data
+        data.cycles.use_multiple_importance_sampling = False
+        path, value = LAMP[name]
+        owner = data.cycles if path.startswith("cycles.") else data
+        setattr(owner, path.removeprefix("cycles."), value)
+        no_glass(scene)
     for kind in KINDS:
         setattr(scene.cycles, f"{kind}_bounces", CAPS.get(name, {}).get(kind, 1024))
     scene.cycles.max_bounces = BOUNCES

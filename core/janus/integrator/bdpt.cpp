@@ -130,8 +130,7 @@ class Bdpt final : public PassIntegrator {
 
   // A vertex that no camera vertex may join within the length limit is not worth its place.
   void cache(const PathVertex& v, CacheBlock& cache) const {
-    if (v.bsdf().connectible() && v.edges + 2 <= settings_.walk.max_edges &&
-        v.possible_labels(false) != 0) {
+    if (v.bsdf().connectible() && v.edges + 2 <= v.max_edges && v.possible_labels(false) != 0) {
       cache.add(v);
     }
   }
@@ -336,7 +335,7 @@ class Bdpt final : public PassIntegrator {
       ++counters.connections;
       const auto& [block, vertex] = picks.entries[n];
       const LightVertex& l = *vertex;
-      if (l.edges + v.edges + 1 > settings_.walk.max_edges) {
+      if (l.edges + v.edges + 1 > l.max_edges) {
         continue;
       }
       const BsdfView light_bsdf = block->bsdf(l);

@@ -54,6 +54,8 @@ class PathTracer final : public PassIntegrator {
     // whether it was to the other side.
     Rgb diffuse = Rgb(0.0f), rest = Rgb(1.0f);
     bool transmitted = false;
+    // Where it looks for lights with the rules of shadow rays: what lets them through so far.
+    std::optional<Rgb> through = std::nullopt;
   };
 
   // Light of source `index` found on the way.
@@ -63,7 +65,16 @@ class PathTracer final : public PassIntegrator {
                             (light.infinite() && settings_.film_transparent))) {
       return Rgb(0.0f);
     }
-    Rgb lit(1.0f);
+    if (walk.edges > light.max_edges && !walk.delta) {
+      return Rgb(0.0f);
+    }
+    Rgb lit(1.0f), beta = walk.beta;
+    if (walk.through) {  // as shadow rays see it
+      if (hit.by_chance()) {
+        return Rgb(0.0f);
+      }
+      beta *= light.shadow_ray == RayType::Unblocked ? Rgb(1.0f) : *walk.through;
+    }
     if (settings_.walk.ray_types && walk.edges > 1) {
       lit = seen(light, walk.diffuse, walk.rest, walk.transmitted);
     }
@@ -73,7 +84,7 @@ class PathTracer final : public PassIntegrator {
             ? 0.0f
             : lights.pmf_illumination(walk.previous, index, hit.primitive) * hit.pdf_illumination;
     const float w = walk.delta ? 1.0f : weight(walk.pdf_solid, pdf_nee);
-    return settings_.clamp(walk.beta * lit * hit.radiance * w, walk.edges);
+    return settings_.clamp(beta * lit * hit.radiance * w, walk.edges);
   }
 
   // What a light may add of what diffuse lobes scatter, and of the rest.
@@ -87,13 +98,15 @@ class PathTracer final : public PassIntegrator {
   // the walk sees other things than they do, it takes a ray of its own for that.
   bool looks_apart(const Walk& walk) const {
     return settings_.walk.ray_types && walk.edges > 1 && !walk.delta &&
-           !context_.scene.accel->alike(walk.type, RayType::Shadow);
+           (context_.scene.has_unblocked ||
+            !context_.scene.accel->alike(walk.type, RayType::Shadow));
   }
 
   Rgb lights_ahead(Walk walk, Counters& counters) const {
     const Scene& scene = context_.scene;
     const vec3 d = walk.ray.direction;
     Rgb sum(0.0f);
+    walk.through = Rgb(1.0f);
     for (;;) {
       ++counters.camera_rays;
       SurfaceInteraction hit;
@@ -107,8 +120,11 @@ class PathTracer final : public PassIntegrator {
         sum += found(walk, index, light->at(hit, walk.previous.p, d, shading.emission));
       }
       if (contains(scene.instances[hit.instance].visibility, RayType::Shadow)) {
-        walk.beta *= shading.transparency;
-        if (is_black(walk.beta) || ++walk.crossings > settings_.walk.max_crossings) {
+        *walk.through *= shading.transparency;
+        if (++walk.crossings > settings_.walk.max_crossings) {
+          walk.through = Rgb(0.0f);
+        }
+        if (is_black(*walk.through) && !scene.has_unblocked) {
           return sum;
         }
       }
@@ -159,9 +175,12 @@ class PathTracer final : public PassIntegrator {
       }
       const ShadingResult shading = scene.shade(*hit);
       size_t index;
-      if (const MeshLight* light = scene.mesh_light(*hit, index); light && !apart) {
-        sum += found(walk, index,
-                     light->at(*hit, walk.previous.p, walk.ray.direction, shading.emission));
+      if (const MeshLight* light = scene.mesh_light(*hit, index)) {
+        const LightHit shine =
+            light->at(*hit, walk.previous.p, walk.ray.direction, shading.emission);
+        if (!apart || shine.by_chance()) {
+          sum += found(walk, index, shine);
+        }
       }
 
       if (!is_black(shading.transparency)) {
@@ -186,7 +205,8 @@ class PathTracer final : public PassIntegrator {
       sampler.start_block(walk.edges);
       if (bsdf.connectible() && scene.light_sampler.illuminates()) {
         sum += settings_.clamp(
-            walk.beta * direct(*hit, bsdf, wo, walk.crossings, sampler, counters), walk.edges + 1);
+            walk.beta * direct(*hit, bsdf, wo, walk.edges + 1, walk.crossings, sampler, counters),
+            walk.edges + 1);
       }
 
       const float u_lobe = sampler.next_1d();
@@ -254,7 +274,7 @@ class PathTracer final : public PassIntegrator {
     return false;
   }
 
-  Rgb direct(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, int crossings,
+  Rgb direct(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, int edges, int crossings,
              Sampler& sampler, Counters& counters) const {
     const Scene& scene = context_.scene;
     const float u_light = sampler.next_1d();
@@ -263,7 +283,7 @@ class PathTracer final : public PassIntegrator {
         scene.light_sampler.sample_illumination(receiver(hit, bsdf, wo), u_light);
     const Light& light = *scene.lights[choice.light];
     const auto sample = light.sample_illumination(hit.p, choice.primitive, u);
-    if (!sample) {
+    if (!sample || edges > light.max_edges) {
       return Rgb(0.0f);
     }
     const BsdfEval e = bsdf.evaluate(wo, sample->wi, TransportMode::Radiance);
@@ -274,7 +294,7 @@ class PathTracer final : public PassIntegrator {
     ++counters.nee_rays;
     const Rgb visible =
         scene.transmittance(offset_origin(hit.p, hit.ng, hit.offset, sample->wi), sample->target,
-                            RayType::Shadow, settings_.walk.max_crossings - crossings);
+                            light.shadow_ray, settings_.walk.max_crossings - crossings);
     if (is_black(visible)) {
       return visible;
     }

@@ -37,7 +37,7 @@ class AreaLight final : public Light {
                                          : 3.0f / (sqr(half_spread_) * half_spread_);
     radiance_ = lamp_power(desc, strength) / (kPi * (desc.normalize ? area_ : 1.0f));
     name = desc.name;
-    visibility = desc.visibility;
+    set_rules(desc);
   }
 
   float power() const override { return luminance(radiance_) * kPi * area_; }

@@ -16,7 +16,7 @@
 
 #include "janus/geometry/interaction.h"
 #include "janus/math/vec.h"
-#include "janus/scene/ray_type.h"
+#include "janus/scene/description.h"
 
 namespace janus {
 
@@ -64,6 +64,9 @@ struct LightHit {
   RayDensity emission;
   float distance2;
   uint32_t primitive = 0;
+
+  // Found by chance only, because next event estimation leaves it out?
+  bool by_chance() const { return pdf_illumination == 0.0f; }
 };
 
 // What light selection knows of an emitter: a lamp, or one triangle of a mesh light. The bounds are
@@ -89,7 +92,17 @@ class Light {
   Light& operator=(const Light&) = delete;
 
   std::string name;
-  RayMask visibility = kAllRays;  // the camera, and the labels of z_1, that see it
+  RayMask visibility = kAllRays;         // the camera, and the labels of z_1, that see it
+  RayType shadow_ray = RayType::Shadow;  // or Unblocked
+  // Edges of the paths on which next event estimation may find it, whichever technique does.
+  int max_edges = 1 << 20;
+
+  // Takes the rules of a light object.
+  void set_rules(const LightDesc& desc) {
+    visibility = desc.visibility;
+    shadow_ray = desc.cast_shadow ? RayType::Shadow : RayType::Unblocked;
+    max_edges = desc.max_bounces + 2;
+  }
 
   // Emitted power, watts (an estimate that guides sampling; Rgb luminance).
   virtual float power() const = 0;

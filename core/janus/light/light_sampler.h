@@ -28,7 +28,7 @@ class LightSampler {
 
   // `u` comes back rescaled to [0, 1). Only if emits().
   size_t sample_emission(float& u) const { return emission_.sample(u, &u); }
-  float pmf_emission(size_t light) const { return emission_.pmf(light); }
+  float pmf_emission(size_t light) const { return emits() ? emission_.pmf(light) : 0.0f; }
 
   // An emitter for a receiver. Only if illuminates().
   LightChoice sample_illumination(const Receiver& receiver, float u) const;

@@ -10,7 +10,7 @@ namespace janus {
 // The emitting triangles of one instance. Both sides shine, as in Cycles.
 class MeshLight final : public Light {
  public:
-  // `radiance` per triangle of the instance's mesh; some triangle must emit and have an area.
+  // `radiance` per triangle of the instance's mesh, 0 where it is not to be looked for.
   MeshLight(const Accel& accel, const Mesh& mesh, const Instance& instance, uint32_t index,
             std::vector<Rgb> radiance);
 

@@ -28,7 +28,7 @@ class PointLight final : public Light {
     }
     solid_angle_ = beam_ ? beam_->solid_angle() : 4.0f * kPi;
     name = desc.name;
-    visibility = desc.visibility;
+    set_rules(desc);
   }
 
   float power() const override { return peak_intensity() * solid_angle_; }

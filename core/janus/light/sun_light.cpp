@@ -20,7 +20,7 @@ class SunLight final : public InfiniteLight {
     const bool spread = desc.normalize && !parallel();
     value_ = lamp_power(desc, strength) / (spread ? kPi * sqr(cos_sin(half_angle_).y) : 1.0f);
     name = desc.name;
-    visibility = desc.visibility;
+    set_rules(desc);
   }
 
   float power() const override { return luminance(value_) / pdf_ * scene_.area(); }

@@ -14,6 +14,7 @@ LightVertex::LightVertex(const PathVertex& v)
       first_lobe(0),
       edges(static_cast<uint16_t>(v.edges)),
       crossings(static_cast<uint16_t>(v.crossings)),
+      max_edges(static_cast<uint16_t>(v.max_edges)),
       bounces(v.bounces),
       lobe_count(0),
       transmits(v.bsdf().transmits()),
@@ -31,7 +32,7 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
       scene.light_sampler.sample_illumination(receiver(v.hit, bsdf, v.back), u_light);
   const Light& light = *scene.lights[choice.light];
   const auto sample = light.sample_illumination(v.hit.p, choice.primitive, u);
-  if (!sample) {
+  if (!sample || v.edges + 1 > light.max_edges) {
     return joined;
   }
   const vec3 wi = sample->wi;
@@ -57,7 +58,7 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   joined->connection.weight = mis.weight_nee(pdf_nee, pdf_hit, joint, v.mis, e.pdf_importance);
   joined->connection.from = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wi);
   joined->connection.to = sample->target;
-  joined->connection.type = RayType::Shadow;
+  joined->connection.type = light.shadow_ray;
   joined->connection.crossings = v.crossings;
   joined->end = {joint, pdf_nee, light.hittable(), wi};
   return joined;
@@ -148,7 +149,7 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
 std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera, vec2 u_lens,
                                              float margin, const Mis& mis, const PathRules& rules) {
   std::optional<CameraSplat> splat;
-  if (!contains(v.visibility, RayType::Camera)) {
+  if (!contains(v.visibility, RayType::Camera) || v.edges + 1 > v.max_edges) {
     return splat;
   }
   const auto to_camera = camera.connect(v.hit.p, u_lens, margin);

@@ -33,7 +33,7 @@ struct LightVertex {
   MisState mis;
   float bound;  // max |beta| times the peak of the BSDF
   uint32_t first_lobe;
-  uint16_t edges, crossings;
+  uint16_t edges, crossings, max_edges;
   BounceCounts bounces;
   uint8_t lobe_count : 4;
   uint8_t transmits : 1;

@@ -64,6 +64,16 @@ void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossing
                      int max_crossings, uint64_t& rays,
                      const std::function<void(size_t, const LightHit&, Rgb)>& found) {
   Rgb through(1.0f);
+  // What casts no shadows is seen through everything.
+  const auto report = [&](size_t index, const LightHit& light) {
+    if (light.by_chance()) {
+      return;
+    }
+    const bool blocked = scene.lights[index]->shadow_ray == RayType::Shadow;
+    if (!blocked || !is_black(through)) {
+      found(index, light, blocked ? through : Rgb(1.0f));
+    }
+  };
   Ray segment = ray;
   float t_begin = 0.0f;
   SurfaceInteraction hit;
@@ -72,20 +82,19 @@ void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossing
     ++rays;
     const bool surface = scene.accel->intersect_any(segment, hit);
     const float t_end = surface ? glm::length(hit.p - ray.origin) : ray.t_max;
-    lamps_between(scene, ray, t_begin, t_end, surface,
-                  [&](size_t lamp, const LightHit& light) { found(lamp, light, through); });
+    lamps_between(scene, ray, t_begin, t_end, surface, report);
     if (!surface) {
       return;
     }
     scene.shade(hit, shading);
     if (size_t index; !is_black(shading.emission)) {
       if (const MeshLight* light = scene.mesh_light(hit, index)) {
-        found(index, light->at(hit, from, ray.direction, shading.emission), through);
+        report(index, light->at(hit, from, ray.direction, shading.emission));
       }
     }
     if (contains(scene.instances[hit.instance].visibility, RayType::Shadow)) {
-      through *= shading.transparency;
-      if (is_black(through) || crossings++ == max_crossings) {
+      through *= crossings++ < max_crossings ? shading.transparency : Rgb(0.0f);
+      if (is_black(through) && !scene.has_unblocked) {
         return;
       }
     }

@@ -124,9 +124,10 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   v.crossings = 0;
   const float start = max_component(v.beta);
   v.source = light.visibility;
+  v.max_edges = std::min(settings.max_edges, light.max_edges);
   // What a mirror shows of the light is no shadow ray.
   constexpr RayMask kDeltas = ray_bit(RayType::Glossy) | ray_bit(RayType::Transmission);
-  const RayMask types = ray_bit(RayType::Shadow) | (scene.has_deltas ? kDeltas : 0);
+  const RayMask types = ray_bit(light.shadow_ray) | (scene.has_deltas ? kDeltas : 0);
   const Ray ray{emission->origin, emission->direction};
   if (!fly_from_light(scene, ray, types, settings, sampler, counters.light_rays, v)) {
     return;
@@ -154,12 +155,15 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   WalkStep step;
   for (;;) {
     on_vertex(v, sampler);
-    if (v.edges + 2 > settings.max_edges) {
+    if (v.edges + 2 > (v.edges == 1 ? settings.max_edges : v.max_edges)) {
       return;
     }
     sampler.start_block(v.edges);
     if (!scatter(v, mis, sampler, TransportMode::Importance, settings, start, eta_scale, step)) {
       return;
+    }
+    if (v.edges == 1 && step.left.delta) {
+      v.max_edges = settings.max_edges;
     }
     // z_1 is next to the light, it is no bounce.
     if (settings.counts() && v.edges > 1) {
@@ -208,13 +212,16 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     const RayType type = v.edges == 1 ? RayType::Camera : step.label;
     // Is the light ahead seen otherwise than the next vertex?
     const bool shadow_ray = settings.ray_types && v.edges > 1 && !step.left.delta &&
-                            !scene.accel->alike(type, RayType::Shadow);
+                            (scene.has_unblocked || !scene.accel->alike(type, RayType::Shadow));
     const auto found = [&](size_t index, const LightHit& hit, Rgb beta) {
       const Light& light = *scene.lights[index];
       if (v.edges == 1) {
         if (contains(light.visibility, RayType::Camera)) {
           on_light(LightFound{index, hit, beta, 1, {}, {}, {}});
         }
+        return;
+      }
+      if (v.edges > light.max_edges && !step.left.delta) {
         return;
       }
       if (settings.ray_types) {
@@ -234,17 +241,19 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
           step.left});
     };
     const auto on_segment = [&](float t_begin, float t_end, bool surface) {
-      if (shadow_ray) {
-        return;
+      if (!shadow_ray) {
+        lamps_between(scene, ray, t_begin, t_end, surface,
+                      [&](size_t lamp, const LightHit& hit) { found(lamp, hit, v.beta); });
       }
-      lamps_between(scene, ray, t_begin, t_end, surface,
-                    [&](size_t lamp, const LightHit& hit) { found(lamp, hit, v.beta); });
       if (!surface) {
         alpha = v.edges == 1 ? 1.0f - average(v.beta) : alpha;
       } else if (!is_black(v.shading.emission)) {
         size_t index;
         if (const MeshLight* light = scene.mesh_light(v.hit, index)) {
-          found(index, light->at(v.hit, previous.p, ray.direction, v.shading.emission), v.beta);
+          const LightHit hit = light->at(v.hit, previous.p, ray.direction, v.shading.emission);
+          if (!shadow_ray || hit.by_chance()) {
+            found(index, hit, v.beta);
+          }
         }
       }
     };

@@ -46,7 +46,8 @@ struct PathVertex {
   // Light subpaths, if PathRules::ray_types: what sees the light, and the types that were drawn for
   // the segment that led here. The vertex has to turn out to be of one of them.
   RayMask source = kAllRays, segment = kAllRays;
-  LightEnd light_end;    // light subpaths: their start
+  int max_edges;       // light subpaths: of the whole path, with this vertex no delta if it is z_1
+  LightEnd light_end;  // light subpaths: their start
   CameraEnd camera_end;  // camera subpaths: theirs
 
   BsdfView bsdf() const { return shading.bsdf.view(hit.ng); }

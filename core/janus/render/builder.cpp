@@ -32,6 +32,7 @@ class Commit {
       program_index_[key] = static_cast<uint32_t>(scene_.programs.size());
       const std::string& name = desc.name.empty() ? key : desc.name;
       scene_.programs.push_back(compile(desc.graph, name, scene_.diagnostics));
+      scene_.programs.back().sample_emission = desc.sample_emission;
       scene_.has_deltas =
           scene_.has_deltas || std::ranges::any_of(scene_.programs.back().lobes, is_delta);
     }
@@ -93,12 +94,15 @@ class Commit {
       const Mesh& mesh = scene_.meshes[instance.mesh];
       std::vector<Rgb> radiance;
       radiance.reserve(mesh.triangles().size());
+      bool by_chance = false;  // rays find it, though nobody looks for it
       for (const Mesh::Triangle& triangle : mesh.triangles()) {
-        radiance.push_back(scene_.programs[instance.material(triangle.material)].emission);
+        const Program& program = scene_.programs[instance.material(triangle.material)];
+        radiance.push_back(program.sample_emission ? program.emission : Rgb(0.0f));
+        by_chance = by_chance || !program.sample_emission;
       }
       auto light = std::make_unique<MeshLight>(*scene_.accel, mesh, instance,
                                                static_cast<uint32_t>(i), std::move(radiance));
-      if (light->power() > 0.0f) {
+      if (light->power() > 0.0f || by_chance) {
         instance.light = static_cast<int>(scene_.lights.size());
         scene_.lights.push_back(std::move(light));
       }
@@ -146,6 +150,9 @@ class Commit {
                             [&](const auto& i) { return partial(i.visibility, kAllRays); }) ||
         std::ranges::any_of(scene_.lights,
                             [&](const auto& l) { return partial(l->visibility, kLabels); });
+    scene_.has_unblocked = std::ranges::any_of(
+        scene_.lights, [](const auto& l) { return l->shadow_ray == RayType::Unblocked; });
+    scene_.has_ray_types = scene_.has_ray_types || scene_.has_unblocked;
     scene_.lamp_index = LampIndex(scene_.lights, scene_.lamps);
     scene_.light_sampler = LightSampler(scene_.lights);
   }

@@ -71,7 +71,8 @@ class Scene {
   LightSampler light_sampler;
   bool has_transparency = false;  // of some surface
   bool has_deltas = false;        // some surface scatters into single directions
-  bool has_ray_types = false;     // some object or light is not visible to all rays
+  bool has_unblocked = false;     // some light casts no shadows
+  bool has_ray_types = false;     // that, or some object or light is not visible to all rays
   CameraDesc camera;
   Diagnostics diagnostics;
 

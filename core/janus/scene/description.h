@@ -37,6 +37,7 @@ struct InstanceDesc {
 struct MaterialDesc {
   std::string name;
   NodeGraph graph;
+  bool sample_emission = true;  // false: what it emits is found by chance only
 };
 
 // A picture for texture nodes, which name its key in their property "image".
@@ -66,6 +67,8 @@ struct LightDesc {
   float spot_size = 0.785398f, spot_blend = 0.15f;
   bool spot_square = false;
   RayMask visibility = kAllRays;   // to the camera, and to labels
+  bool cast_shadow = true;         // false: its light passes everything
+  int max_bounces = 1024;          // of the paths that it lights
   std::optional<NodeGraph> graph;  // the light's own node tree
 };
 

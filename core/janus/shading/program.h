@@ -24,6 +24,7 @@ class Program {
   std::vector<Lobe> lobes;  // with selection probabilities, without normals; at most kMaxLobes
   Rgb emission = Rgb(0.0f);
   Rgb transparency = Rgb(0.0f);
+  bool sample_emission = true;  // MaterialDesc::sample_emission
 
   bool has_transparency() const { return !is_black(transparency); }
 

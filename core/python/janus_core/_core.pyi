@@ -120,13 +120,15 @@ class SceneBuilder:
         vertex_normals float[N, 3] or corner_normals float[C, 3], need not be unit.
         material_indices: int[M], the material slot of each triangle (None: slot 0).
         """
-    def set_material(self, key: str, *, name: str, graph: Mapping[str, Any]) -> None:
+    def set_material(
+        self, key: str, *, name: str, graph: Mapping[str, Any], sample_emission: bool = True
+    ) -> None:
         """A surface, as a flattened node tree:
 
         {"nodes": [{"name", "type", "inputs": {identifier: value}, "properties": {identifier:
         value}}], "surface": {"link": [node, output]} or None}. The value of an input is None, a
         number, 3 or 4 numbers, a string, or a link. Types and identifiers are Blender's; see
-        node_types().
+        node_types(). sample_emission False: what it emits is found by chance only.
         """
     def set_image(self, key: str, *, name: str, pixels: npt.ArrayLike, srgb: bool = False) -> None:
         """A picture for texture nodes, which name it by their property "image": this key.
@@ -178,6 +180,8 @@ class SceneBuilder:
         visible_diffuse: bool = True,
         visible_glossy: bool = True,
         visible_transmission: bool = True,
+        cast_shadow: bool = True,
+        max_bounces: int = 1024,
         graph: Mapping[str, Any] | None = None,
     ) -> None:
         """A light object, which shines along its -z.
@@ -185,7 +189,9 @@ class SceneBuilder:
         transform: float[4, 4]. energy: watts (SUN: W/m^2), times 2**exposure; with normalize False
         it does not spread over the light's surface. radius: POINT, SPOT. size, size_y: AREA, edges
         or diameters before the transform. spread: AREA, full angle. angle: SUN, full angle.
-        spot_size: full angle. graph: the light's own node tree, as for set_material.
+        spot_size: full angle. visible_*: the camera, and the bounces, that see it. cast_shadow
+        False: its light passes everything. max_bounces: of the paths that it lights. graph: the
+        light's own node tree, as for set_material.
         """
     def set_world(
         self,
