@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import bpy
 
 from .convert import convert, plain, socket_value
+from .drawn import drawn_properties
 
 # Property types that are plain data; pointers (ramps, curves) need code of their own.
 PLAIN_PROPERTIES = {"ENUM", "BOOLEAN", "INT", "FLOAT", "STRING"}
@@ -214,8 +215,12 @@ def image_key(image) -> str:
 def _properties(node) -> dict:
     common = bpy.types.Node.bl_rna.properties
     image = getattr(node, "image", None)
-    return ({"image": image_key(image)} if isinstance(image, bpy.types.Image) else {}) | {
-        p.identifier: plain(getattr(node, p.identifier))
-        for p in node.bl_rna.properties
-        if p.type in PLAIN_PROPERTIES and p.identifier not in common
-    }
+    return (
+        ({"image": image_key(image)} if isinstance(image, bpy.types.Image) else {})
+        | {
+            p.identifier: plain(getattr(node, p.identifier))
+            for p in node.bl_rna.properties
+            if p.type in PLAIN_PROPERTIES and p.identifier not in common
+        }
+        | drawn_properties(node)
+    )

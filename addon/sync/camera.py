@@ -39,6 +39,7 @@ def sync_camera(builder, depsgraph, log) -> None:
         window=frame,
         clip_start=data.clip_start,
         clip_end=data.clip_end,
+        pixel_size=(frame[3] - frame[2]) / frame_size(scene.render)[1],
         **(lens(data, transform, depsgraph) if data.dof.use_dof else {}),
     )
 

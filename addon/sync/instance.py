@@ -9,6 +9,7 @@ from .visibility import UNSUPPORTED_TYPES, check_hair, check_linking, check_obje
 
 # Object types that have a surface. Whatever they are, the depsgraph shows their faces as an
 # instance of type MESH beside the object itself, so only that is exported.
+MASK = 0xFFFFFFFF  # of 32 bits
 SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
 
@@ -20,7 +21,7 @@ class InstanceSync:
         self._materials = materials
         self._log = log
         self._poll = poll
-        self._meshes = {}  # address of the evaluated mesh -> key, or None if it has no faces
+        self._meshes = {}  # (address of the evaluated mesh, attributes) -> key; None: no faces
         self._checked = set()
         self._count = 0
 
@@ -43,7 +44,8 @@ class InstanceSync:
 
     def _surface(self, instance) -> None:
         obj = instance.object
-        mesh = self._mesh(obj)
+        materials = self._materials.keys(obj)
+        mesh = self._mesh(obj, self._materials.attributes(materials))
         if mesh is None:
             return
         self._builder.set_instance(
@@ -51,24 +53,27 @@ class InstanceSync:
             name=obj.name,
             mesh=mesh,
             transform=np.array(instance.matrix_world, dtype=np.float64),
-            materials=self._materials.keys(obj),
+            materials=materials,
+            color=tuple(obj.color),
+            object_index=obj.pass_index,
+            random=object_random(obj, instance.random_id),
             **surface_seen_by(instance, self._view_layer),
         )
 
-    def _mesh(self, obj) -> str | None:
+    def _mesh(self, obj, attributes: frozenset[str]) -> str | None:
         """The key of the object's geometry, which is sent on first sight.
 
         Geometry goes by its evaluated mesh, which is shared by all who show it unchanged. Names
         would be wrong: instances made by Geometry Nodes carry the name of their maker.
         """
-        identity = obj.data.as_pointer()
+        identity = (obj.data.as_pointer(), attributes)
         if identity not in self._meshes:
-            self._meshes[identity] = self._send_mesh(obj)
+            self._meshes[identity] = self._send_mesh(obj, attributes)
         return self._meshes[identity]
 
-    def _send_mesh(self, obj) -> str | None:
+    def _send_mesh(self, obj, attributes: frozenset[str]) -> str | None:
         try:
-            arrays = mesh_arrays(obj.to_mesh(), len(obj.material_slots))
+            arrays = mesh_arrays(obj.to_mesh(), len(obj.material_slots), attributes, self._log)
             if arrays is None:
                 return None
             key = f"mesh:{len(self._meshes)}"
@@ -92,3 +97,28 @@ class InstanceSync:
     def _next_key(self, kind: str) -> str:
         self._count += 1
         return f"{kind}:{self._count}"
+
+
+def object_random(obj, random_id: int) -> float:
+    """The number that Object Info calls Random. Instances have one; objects go by their name."""
+    return (random_id or hash_name(obj.name)) / 0xFFFFFFFF
+
+
+def hash_name(name: str) -> int:
+    """Cycles' hash of a name: 37 to the power of the place, then one round of Jenkins' lookup3."""
+    text = 0
+    for byte in name.encode():
+        text = (text * 37 + byte) & MASK
+    a = b = c = (0xDEADBEEF + (2 << 2) + 13) & MASK
+    a = (a + text) & MASK
+    c = ((c ^ b) - _rotate(b, 14)) & MASK
+    a = ((a ^ c) - _rotate(c, 11)) & MASK
+    b = ((b ^ a) - _rotate(a, 25)) & MASK
+    c = ((c ^ b) - _rotate(b, 16)) & MASK
+    a = ((a ^ c) - _rotate(c, 4)) & MASK
+    b = ((b ^ a) - _rotate(a, 14)) & MASK
+    return ((c ^ b) - _rotate(b, 24)) & MASK
+
+
+def _rotate(x: int, bits: int) -> int:
+    return (x << bits | x >> (32 - bits)) & MASK

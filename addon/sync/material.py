@@ -2,6 +2,7 @@
 """Materials: each is sent once, under a key that holds for the whole sync."""
 
 from ..nodes import diffuse_graph, flatten_tree
+from .image import send_images
 from .world import uses_nodes
 
 
@@ -12,7 +13,12 @@ class MaterialSync:
         self._builder = builder
         self._override = override
         self._log = log
-        self._sent = set()
+        self._images = set()  # keys of what has been sent
+        self._sent = {}  # key -> keys of the mesh attributes that it reads
+
+    def attributes(self, keys) -> frozenset[str]:
+        """What the materials with these keys read of a mesh."""
+        return frozenset().union(*(self._sent[key] for key in keys if key is not None))
 
     def keys(self, obj) -> list[str | None]:
         """The keys for the object's slots, in order; None for an empty slot."""
@@ -26,12 +32,14 @@ class MaterialSync:
             return None
         key = f"material:{material.name_full}"
         if key not in self._sent:
-            self._sent.add(key)
-            self._builder.set_material(
+            graph = self._graph(material)
+            send_images(self._builder, graph, material, self._log, self._images)
+            self._sent[key] = self._builder.set_material(
                 key,
                 name=material.name,
-                graph=self._graph(material),
+                graph=graph,
                 sample_emission=sample_emission(material),
+                material_index=material.pass_index,
             )
         return key
 

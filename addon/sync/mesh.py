@@ -5,11 +5,14 @@ import ctypes
 
 import numpy as np
 
+from .attributes import mesh_attributes, triangle_faces
 
-def mesh_arrays(mesh, slots: int) -> dict | None:
+
+def mesh_arrays(mesh, slots: int, attributes, log) -> dict | None:
     """The array arguments of SceneBuilder.set_mesh, or None for a mesh without faces.
 
-    `slots` is the number of material slots of the object that shows the mesh.
+    `slots` is the number of material slots of the object that shows the mesh, `attributes` the
+    keys of what its materials read.
     """
     mesh.calc_loop_triangles()
     triangle_count, corner_count = len(mesh.loop_triangles), len(mesh.loops)
@@ -22,7 +25,17 @@ def mesh_arrays(mesh, slots: int) -> dict | None:
         "vertex_normals": _vertex_normals(mesh),
         "corner_normals": _corner_normals(mesh, corner_count),
         "material_indices": _material_indices(mesh, triangle_count, slots),
+        **_attributes(mesh, triangle_count, attributes, log),
     }
+
+
+def _attributes(mesh, triangle_count: int, keys, log) -> dict:
+    found = mesh_attributes(mesh, keys, log)
+    if not found:
+        return {}
+    by_face = any(attribute["domain"] == "FACE" for attribute in found)
+    faces = triangle_faces(mesh, triangle_count) if by_face else None
+    return {"attributes": found, "faces": faces}
 
 
 def triangles(mesh, count: int) -> np.ndarray:
@@ -88,6 +101,4 @@ def _material_indices(mesh, triangle_count: int, slots: int) -> np.ndarray | Non
         return None  # slot 0 everywhere
     of_face = np.empty(len(mesh.polygons), dtype=np.int32)
     attribute.data.foreach_get("value", of_face)
-    faces = np.empty(triangle_count, dtype=np.int32)
-    mesh.loop_triangle_polygons.foreach_get("value", faces)
-    return np.clip(of_face, 0, slots - 1)[faces]
+    return np.clip(of_face, 0, slots - 1)[triangle_faces(mesh, triangle_count)]

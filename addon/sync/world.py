@@ -20,7 +20,7 @@ def sync_world(builder, depsgraph, log) -> None:
         if output and output.inputs["Volume"].is_linked:
             log.warning("volumes are not supported yet", object=world.name)
         graph = flatten_tree(world.node_tree)
-        send_images(builder, graph, world, log)
+        send_images(builder, graph, world, log, set())
     else:
         graph = background_graph(world.color)
     if getattr(getattr(world, "cycles", None), "max_bounces", 1024) < 1024:

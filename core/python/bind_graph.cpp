@@ -59,7 +59,7 @@ class GraphReader {
     }
     path_ = base;
     for (const auto& [identifier, value] : dict(item, "properties")) {
-      // Lists and None are Blender's too, but no node type of ours reads one.
+      // None and lists of other things are Blender's too, but no node type of ours reads them.
       const std::string name = py::str(identifier);
       if (py::isinstance<py::bool_>(value)) {
         result.properties[name] = value.cast<bool>();
@@ -67,6 +67,8 @@ class GraphReader {
         result.properties[name] = value.cast<std::string>();
       } else if (is_number(value)) {
         result.properties[name] = number(value);
+      } else if (auto list = numbers(value)) {
+        result.properties[name] = std::move(*list);
       }
     }
     return result;
@@ -124,6 +126,21 @@ class GraphReader {
       fail("a vector must have 3 or 4 components, not " + std::to_string(v.size()));
     }
     fail("must be None, a number, a string, 3 or 4 numbers, or a link");
+  }
+
+  // A sequence of numbers, such as the samples of a curve.
+  std::optional<std::vector<float>> numbers(const py::handle& value) const {
+    if (!py::isinstance<py::sequence>(value) && !py::isinstance<py::array>(value)) {
+      return std::nullopt;
+    }
+    std::vector<float> list;
+    for (const py::handle item : py::reinterpret_borrow<py::iterable>(value)) {
+      if (!is_number(item)) {
+        return std::nullopt;
+      }
+      list.push_back(number(item));
+    }
+    return list;
   }
 
   // Python's numbers and NumPy's scalars.

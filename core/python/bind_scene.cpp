@@ -6,6 +6,7 @@
 
 #include "bind.h"
 #include "janus/render/builder.h"
+#include "janus/shading/compiler.h"
 #include "janus/util/error.h"
 
 namespace janus::python {
@@ -24,6 +25,10 @@ constexpr EnumName<AreaShape> kAreaShapes[] = {{"SQUARE", AreaShape::Square},
                                                {"RECTANGLE", AreaShape::Rectangle},
                                                {"DISK", AreaShape::Disk},
                                                {"ELLIPSE", AreaShape::Ellipse}};
+constexpr EnumName<AttributeDomain> kDomains[] = {{"MESH", AttributeDomain::Mesh},
+                                                  {"POINT", AttributeDomain::Point},
+                                                  {"CORNER", AttributeDomain::Corner},
+                                                  {"FACE", AttributeDomain::Face}};
 constexpr py::ssize_t kMaxImageSide = 1 << 16;
 constexpr EnumName<CameraType> kCameraTypes[] = {{"PERSP", CameraType::Perspective},
                                                  {"ORTHO", CameraType::Orthographic},
@@ -120,6 +125,28 @@ RayMask to_mask(bool camera, bool diffuse, bool glossy, bool transmission, bool 
   return mask;
 }
 
+// {"key", "domain", "values": float[N] or [N, C]}
+AttributeDesc to_attribute(Key key, const py::handle& item) {
+  const auto dict =
+      py::isinstance<py::dict>(item) ? py::reinterpret_borrow<py::dict>(item) : py::dict();
+  if (!dict.contains("key") || !dict.contains("domain") || !dict.contains("values")) {
+    throw SceneError(key, "attributes", "each must have key, domain and values");
+  }
+  AttributeDesc attribute;
+  attribute.key = dict["key"].cast<std::string>();
+  attribute.domain = from_name(kDomains, dict["domain"].cast<std::string>(), "domain");
+  const py::array a = to_array(dict["values"]);
+  const std::string path = "attributes[" + attribute.key + "]";
+  const auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(a);
+  if (!values || a.ndim() < 1 || a.ndim() > 2) {
+    PyErr_Clear();
+    throw SceneError(key, path, "must hold numbers, float[N] or float[N, C]");
+  }
+  attribute.channels = a.ndim() == 2 ? static_cast<int>(a.shape(1)) : 1;
+  attribute.values.assign(values.data(), values.data() + values.size());
+  return attribute;
+}
+
 mat4 to_matrix(Key key, const py::object& value) {
   const auto a = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
   if (!a || a.ndim() != 2 || a.shape(0) != 4 || a.shape(1) != 4) {
@@ -141,7 +168,8 @@ mat4 to_matrix(Key key, const py::object& value) {
 void set_mesh(SceneBuilder& self, Key key, std::string name, const py::object& positions,
               const py::object& triangles, const py::object& corner_vertices,
               const py::object& vertex_normals, const py::object& corner_normals,
-              const py::object& material_indices) {
+              const py::object& material_indices, const py::object& faces,
+              const py::list& attributes) {
   MeshDesc desc;
   desc.name = std::move(name);
   desc.positions = to_vectors(key, "positions", to_array(positions));
@@ -158,10 +186,17 @@ void set_mesh(SceneBuilder& self, Key key, std::string name, const py::object& p
   if (const auto a = optional_array(material_indices)) {
     desc.material_indices = to_indices<uint32_t>(key, "material_indices", *a, 0);
   }
+  if (const auto a = optional_array(faces)) {
+    desc.faces = to_indices<uint32_t>(key, "faces", *a, 0);
+  }
+  for (const py::handle item : attributes) {
+    desc.attributes.push_back(to_attribute(key, item));
+  }
   self.set_mesh(key, std::move(desc));
 }
 
-void set_image(SceneBuilder& self, Key key, std::string name, const py::object& pixels, bool srgb) {
+void set_image(SceneBuilder& self, Key key, std::string name, const py::object& pixels, bool srgb,
+               bool associated) {
   const py::array a = to_array(pixels);
   const char kind = a.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u') {
@@ -178,7 +213,7 @@ void set_image(SceneBuilder& self, Key key, std::string name, const py::object& 
   image->width = static_cast<int>(a.shape(1));
   image->channels = static_cast<int>(a.shape(2));
   image->pixels.assign(values.data(), values.data() + values.size());
-  self.set_image(key, {std::move(name), std::move(image), srgb});
+  self.set_image(key, {std::move(name), std::move(image), srgb, associated});
 }
 
 void set_light(SceneBuilder& self, Key key, std::string name, const std::string& type,
@@ -221,7 +256,7 @@ void set_light(SceneBuilder& self, Key key, std::string name, const std::string&
 void set_camera(SceneBuilder& self, std::string name, const std::string& type,
                 const py::object& transform, const std::array<float, 4>& window, float clip_start,
                 float clip_end, float aperture_radius, float focus_distance, int aperture_blades,
-                float aperture_rotation, float aperture_ratio) {
+                float aperture_rotation, float aperture_ratio, float pixel_size) {
   CameraDesc desc;
   desc.type = from_name(kCameraTypes, type, "camera type");
   desc.transform = to_matrix(name, transform);
@@ -237,6 +272,7 @@ void set_camera(SceneBuilder& self, std::string name, const std::string& type,
   desc.aperture_blades = aperture_blades;
   desc.aperture_rotation = aperture_rotation;
   desc.aperture_ratio = aperture_ratio;
+  desc.pixel_size = pixel_size;
   self.set_camera(std::move(desc));
 }
 
@@ -303,7 +339,7 @@ py::dict counts(const Scene& scene) {
   result["meshes"] = scene.meshes.size();
   result["instances"] = scene.instances.size();
   result["triangles"] = triangles;
-  result["materials"] = scene.programs.size() - 1;  // without the default surface
+  result["materials"] = scene.surfaces.size() - 1;  // without the default surface
   result["lights"] = scene.lights.size();
   return result;
 }
@@ -345,37 +381,55 @@ void bind_scene(py::module_& m) {
       .def("set_mesh", &set_mesh, "key"_a, py::kw_only(), "name"_a, "positions"_a, "triangles"_a,
            "corner_vertices"_a = py::none(), "vertex_normals"_a = py::none(),
            "corner_normals"_a = py::none(), "material_indices"_a = py::none(),
+           "faces"_a = py::none(), "attributes"_a = py::list(),
            "positions float[N,3]; triangles int[M,3], indices of corners; corner_vertices int[C], "
            "vertex of each corner (None: corners are vertices); vertex_normals float[N,3] or "
            "corner_normals float[C,3] (neither: flat); material_indices int[M], slot per triangle "
-           "(None: slot 0). Arrays are copied.")
+           "(None: slot 0); faces int[M], face of each triangle (None: each is one); attributes: "
+           "dicts of key (as set_material() says it), domain (MESH, POINT, CORNER, FACE) and "
+           "values float[N] or [N, 1 to 4]. Arrays are copied.")
       .def(
           "set_material",
           [](SceneBuilder& self, Key key, std::string name, const py::dict& graph,
-             bool sample_emission) {
-            self.set_material(key, {std::move(name), to_graph(key, graph), sample_emission});
+             bool sample_emission, float material_index) {
+            NodeGraph nodes = to_graph(key, graph);
+            std::vector<std::string> attributes = required_attributes(nodes);
+            self.set_material(key,
+                              {std::move(name), std::move(nodes), sample_emission, material_index});
+            return attributes;
           },
           "key"_a, py::kw_only(), "name"_a, "graph"_a, "sample_emission"_a = true,
+          "material_index"_a = 0.0f,
           "A surface, as a flattened node tree: {'nodes': [{'name', 'type', 'inputs', "
-          "'properties'}], 'surface': {'link': [node, output]} or None}.")
-      .def("set_image", &set_image, "key"_a, py::kw_only(), "name"_a, "pixels"_a, "srgb"_a = false,
-           "A picture for texture nodes whose property 'image' is this key: float[H,W,3 or 4], the "
-           "bottom row first, scene-linear Rec.709 unless srgb. Copied.")
+          "'properties'}], 'surface': {'link': [node, output]} or None}. Returns the keys of the "
+          "mesh "
+          "attributes that it reads: 'generated', 'color:', 'uv:NAME', 'tangent:NAME' (no name: "
+          "the "
+          "active one), 'attribute:NAME'.")
+      .def(
+          "set_image", &set_image, "key"_a, py::kw_only(), "name"_a, "pixels"_a, "srgb"_a = false,
+          "associated"_a = false,
+          "A picture for texture nodes whose property 'image' is this key: float[H,W,3 or 4], the "
+          "bottom row first, scene-linear Rec.709 unless srgb; associated: multiplied by alpha, as "
+          "they are encoded. Copied.")
       .def(
           "set_instance",
           [](SceneBuilder& self, Key key, std::string name, std::string mesh,
              const py::object& transform, std::vector<std::optional<std::string>> materials,
-             bool camera, bool diffuse, bool glossy, bool transmission, bool shadow) {
-            self.set_instance(key, {std::move(name), std::move(mesh), to_matrix(key, transform),
-                                    std::move(materials),
-                                    to_mask(camera, diffuse, glossy, transmission, shadow)});
+             bool camera, bool diffuse, bool glossy, bool transmission, bool shadow,
+             const std::array<float, 4>& color, float object_index, float random) {
+            self.set_instance(
+                key, {std::move(name), std::move(mesh), to_matrix(key, transform),
+                      std::move(materials), to_mask(camera, diffuse, glossy, transmission, shadow),
+                      vec4(color[0], color[1], color[2], color[3]), object_index, random});
           },
           "key"_a, py::kw_only(), "name"_a, "mesh"_a, "transform"_a,
           "materials"_a = std::vector<std::optional<std::string>>(), "visible_camera"_a = true,
           "visible_diffuse"_a = true, "visible_glossy"_a = true, "visible_transmission"_a = true,
-          "visible_shadow"_a = true,
+          "visible_shadow"_a = true, "color"_a = std::array{1.0f, 1.0f, 1.0f, 1.0f},
+          "object_index"_a = 0.0f, "random"_a = 0.0f,
           "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot; "
-          "visible_*: the rays that meet it.")
+          "visible_*: the rays that meet it; the rest is what the Object Info node says.")
       .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,
            "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f,
            "soft_falloff"_a = true, "shape"_a = "SQUARE", "size"_a = 0.25f, "size_y"_a = 0.25f,
@@ -405,10 +459,11 @@ void bind_scene(py::module_& m) {
           "set_camera", &set_camera, py::kw_only(), "name"_a, "type"_a = "PERSP", "transform"_a,
           "window"_a, "clip_start"_a = 0.1f, "clip_end"_a = 1000.0f, "aperture_radius"_a = 0.0f,
           "focus_distance"_a = 10.0f, "aperture_blades"_a = 0, "aperture_rotation"_a = 0.0f,
-          "aperture_ratio"_a = 1.0f,
+          "aperture_ratio"_a = 1.0f, "pixel_size"_a = 0.0f,
           "A camera of type PERSP, ORTHO or EQUIRECTANGULAR that looks along its -z. window: left, "
           "right, bottom, top of the full frame: on the plane at distance 1, in metres, or as "
-          "longitudes and latitudes in radians. aperture_radius in metres; 0: no depth of field.")
+          "longitudes and latitudes in radians. aperture_radius in metres; 0: no depth of field. "
+          "pixel_size: height of a pixel in units of the window, for bump; 0: a thousandth of it.")
       .def("remove", &SceneBuilder::remove, "key"_a, "Forgets a key; unknown keys are ignored.")
       .def("commit", &commit, "poll"_a = py::none(),
            "Builds the immutable Scene without holding the GIL. poll() is called about every 50 ms "

@@ -32,13 +32,17 @@ py::list node_type_list() {
       py::dict input;
       input["identifier"] = std::string(socket.identifier);
       input["type"] = name_of(socket.type);
-      input["default"] = socket.default_value;
+      input["default"] = py::make_tuple(socket.value.x, socket.value.y, socket.value.z);
       inputs.append(input);
     }
     py::dict node;
     node["type"] = std::string(decl.type);
     node["inputs"] = inputs;
-    node["output"] = std::string(decl.output);
+    py::list outputs;
+    for (const std::string_view output : decl.outputs) {
+      outputs.append(std::string(output));
+    }
+    node["outputs"] = outputs;
     result.append(node);
   }
   return result;
@@ -75,5 +79,5 @@ PYBIND11_MODULE(_core, m) {
         "Versions of the core, of Embree and of the tools that it was built with, as a dict.");
   m.def("node_types", &node_type_list,
         "The shader nodes that the core knows: a list of dicts with type (Blender's node.type), "
-        "inputs (identifier, type, default) and output.");
+        "inputs (identifier, type, default) and outputs.");
 }

@@ -12,6 +12,7 @@ class Recorder:
     def __init__(self, diagnostics=()):
         self.meshes, self.materials, self.instances, self.lights = {}, {}, {}, {}
         self.images = {}
+        self.attributes = {}  # name of a material -> keys of what it reads
         self.world = self.camera = None
         self.diagnostics = list(diagnostics)
 
@@ -26,6 +27,7 @@ class Recorder:
     def set_material(self, key, **arguments):
         assert key not in self.materials
         self.materials[key] = arguments
+        return self.attributes.get(arguments["name"], [])
 
     def set_image(self, key, **arguments):
         assert key not in self.images

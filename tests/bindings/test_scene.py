@@ -288,7 +288,8 @@ def test_node_types_are_listed():
     types = {node["type"]: node for node in janus_core.node_types()}
     assert {"BSDF_DIFFUSE", "BSDF_GLASS", "BSDF_GLOSSY", "EMISSION", "MIX_SHADER"} <= set(types)
     inputs = {i["identifier"]: i for i in types["BSDF_GLASS"]["inputs"]}
-    assert inputs["IOR"] == {"identifier": "IOR", "type": "FLOAT", "default": 1.5}
+    assert inputs["IOR"] == {"identifier": "IOR", "type": "FLOAT", "default": (1.5, 1.5, 1.5)}
+    assert types["BSDF_GLASS"]["outputs"] == ["BSDF"]
 
 
 def test_build_info():

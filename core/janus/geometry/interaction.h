@@ -14,7 +14,8 @@ struct SurfaceInteraction {
   vec3 ns;       // shading normal, unit, front side
   float offset;  // how far rays must start off the surface along +-ng (see offset_origin)
   uint32_t instance, primitive;
-  uint32_t material;  // program index
+  vec2 barycentric;
+  uint32_t material;  // index in Surfaces
 };
 
 // The origin for a ray that leaves `p` in direction `d`. Walks and shadow rays use the same rule

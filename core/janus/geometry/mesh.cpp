@@ -1,9 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/geometry/mesh.h"
 
+#include <algorithm>
+
 #include "janus/util/error.h"
 
 namespace janus {
+
+namespace {
+
+// The number of elements of a domain.
+size_t domain_size(const MeshDesc& desc, AttributeDomain domain, size_t corners) {
+  switch (domain) {
+    case AttributeDomain::Mesh:
+      return 1;
+    case AttributeDomain::Point:
+      return desc.positions.size();
+    case AttributeDomain::Corner:
+      return corners;
+    case AttributeDomain::Face:
+      break;
+  }
+  uint32_t last = 0;
+  for (const uint32_t face : desc.faces) {
+    last = std::max(last, face);
+  }
+  return desc.faces.empty() ? desc.triangles.size() : size_t{last} + 1;
+}
+
+void check_attributes(const std::string& key, const MeshDesc& desc, size_t corners) {
+  if (!desc.faces.empty() && desc.faces.size() != desc.triangles.size()) {
+    throw SceneError(key, "faces",
+                     "has " + std::to_string(desc.faces.size()) + " entries for " +
+                         std::to_string(desc.triangles.size()) + " triangles");
+  }
+  for (const AttributeDesc& attribute : desc.attributes) {
+    const std::string path = "attributes[" + attribute.key + "]";
+    if (attribute.channels < 1 || attribute.channels > 4) {
+      throw SceneError(key, path, "must have 1 to 4 channels");
+    }
+    const size_t size = attribute.values.size() / attribute.channels;
+    const size_t least = domain_size(desc, attribute.domain, corners);
+    const bool exact = attribute.domain != AttributeDomain::Face;  // faces without triangles
+    if (attribute.values.size() % attribute.channels != 0 || size < least ||
+        (exact && size != least)) {
+      throw SceneError(key, path,
+                       "has " + std::to_string(size) + " elements, not " + std::to_string(least));
+    }
+  }
+}
+
+}  // namespace
 
 Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostics)
     : name_(desc.name.empty() ? key : desc.name) {
@@ -35,6 +82,14 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
     }
   }
 
+  check_attributes(key, desc, corners);
+  attributes_ = desc.attributes;
+  const auto kept_by = [&](AttributeDomain domain) {
+    return std::any_of(attributes_.begin(), attributes_.end(),
+                       [&](const AttributeDesc& a) { return a.domain == domain; });
+  };
+  const bool by_corner = kept_by(AttributeDomain::Corner), by_face = kept_by(AttributeDomain::Face);
+
   positions_ = desc.positions;
   positions_.emplace_back(0.0f);
   triangles_.reserve(desc.triangles.size());
@@ -55,6 +110,12 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
     triangle.material = desc.material_indices.empty() ? 0 : desc.material_indices[i];
     if (finite) {
       triangles_.push_back(triangle);
+      if (by_corner) {
+        corners_.push_back(desc.triangles[i]);
+      }
+      if (by_face) {
+        faces_.push_back(desc.faces.empty() ? static_cast<uint32_t>(i) : desc.faces[i]);
+      }
     } else {
       ++dropped;
     }
@@ -65,6 +126,34 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
          std::to_string(dropped) + " triangles with non-finite vertices are left out"});
   }
   normals_ = desc.vertex_normals.empty() ? desc.corner_normals : desc.vertex_normals;
+}
+
+vec3 Mesh::interpolated_normal(uint32_t primitive, vec2 b) const {
+  const Triangle& t = triangles_[primitive];
+  if (!smooth()) {
+    const vec3 n =
+        cross(positions_[t.v[1]] - positions_[t.v[0]], positions_[t.v[2]] - positions_[t.v[0]]);
+    const float length = glm::length(n);
+    return length > 0.0f ? n / length : n;
+  }
+  return (1.0f - b.x - b.y) * normals_[t.normal[0]] + b.x * normals_[t.normal[1]] +
+         b.y * normals_[t.normal[2]];
+}
+
+const AttributeDesc* Mesh::attribute(const std::string& key) const {
+  const auto found = std::find_if(attributes_.begin(), attributes_.end(),
+                                  [&](const AttributeDesc& a) { return a.key == key; });
+  return found == attributes_.end() ? nullptr : &*found;
+}
+
+TriangleIndices Mesh::indices(uint32_t primitive) const {
+  TriangleIndices result{};
+  for (int k = 0; k < 3; ++k) {
+    result.vertices[k] = triangles_[primitive].v[k];
+    result.corners[k] = corners_.empty() ? 0 : corners_[primitive][k];
+  }
+  result.face = faces_.empty() ? primitive : faces_[primitive];
+  return result;
 }
 
 }  // namespace janus

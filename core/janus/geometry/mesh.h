@@ -8,6 +8,7 @@
 #include "janus/math/vec.h"
 #include "janus/scene/description.h"
 #include "janus/scene/diagnostics.h"
+#include "janus/shading/shading_point.h"
 
 namespace janus {
 
@@ -29,23 +30,33 @@ class Mesh {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   bool smooth() const { return !normals_.empty(); }
   const std::vector<vec3>& normals() const { return normals_; }  // of triangles; empty: flat
+  // Of the corners' normals, or of the triangle; not of unit length.
+  vec3 interpolated_normal(uint32_t primitive, vec2 barycentric) const;
+  const AttributeDesc* attribute(const std::string& key) const;  // nullptr: it has none
+  // Where the attributes of a triangle stand.
+  TriangleIndices indices(uint32_t primitive) const;
 
  private:
   std::string name_;
   std::vector<vec3> positions_;  // one more than used: Embree reads 16 bytes at the last vertex
   std::vector<Triangle> triangles_;
   std::vector<vec3> normals_;
+  std::vector<AttributeDesc> attributes_;
+  std::vector<glm::uvec3> corners_;  // by triangle; empty: nothing is kept by corner
+  std::vector<uint32_t> faces_;      // by triangle; empty: nothing is kept by face
 };
 
 // Object-to-world placement of a mesh.
 struct Instance {
   uint32_t mesh = 0;
   mat4 to_world = mat4(1.0f);
-  mat3 normal_to_world = mat3(1.0f);  // inverse transpose
-  std::vector<uint32_t> materials;    // program index by slot; never empty
-  int light = -1;                     // index of the mesh light, or -1
-  bool opaque = true;                 // false: rays may pass through parts of it (see Accel)
-  RayMask visibility = kAllRays;      // the rays that meet it
+  mat3 normal_to_world = mat3(1.0f);         // inverse transpose
+  std::vector<uint32_t> materials;           // index in Surfaces by slot; never empty
+  int light = -1;                            // index of the mesh light, or -1
+  bool opaque = true;                        // false: rays may pass through parts of it (see Accel)
+  RayMask visibility = kAllRays;             // the rays that meet it
+  vec4 color = vec4(1.0f);                   // what Object Info says: the object's colour,
+  float object_index = 0.0f, random = 0.0f;  // its pass index, a number of its own in [0, 1]
   std::string name;
 
   uint32_t material(uint32_t slot) const {

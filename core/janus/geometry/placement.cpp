@@ -63,6 +63,7 @@ void Placement::surface_point(uint32_t primitive, vec2 b, SurfaceInteraction& hi
   const float b0 = 1.0f - b.x - b.y;
 
   hit.primitive = primitive;
+  hit.barycentric = b;
   hit.material = instance_->material(triangle.material);
   hit.p = position(primitive, b);
   const vec3 object_normal = cross(v1 - v0, v2 - v0);

@@ -9,7 +9,7 @@
 
 namespace janus {
 
-enum class Interpolation { Linear, Closest };
+enum class Interpolation { Linear, Closest, Cubic };
 
 // u and v in [0, 1] from the bottom left.
 vec2 direction_to_latlong(vec3 direction);

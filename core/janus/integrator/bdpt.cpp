@@ -78,7 +78,7 @@ class Bdpt final : public PassIntegrator {
 
   // Are there paths that camera walks cannot make? A light that cannot be hit, behind a delta.
   bool needs_light_paths() const {
-    return context_.scene.has_deltas &&
+    return context_.scene.surfaces.any_delta() &&
            std::ranges::any_of(context_.scene.lights, [](const auto& l) { return !l->hittable(); });
   }
 
@@ -193,7 +193,8 @@ class Bdpt final : public PassIntegrator {
       return Rgb(0.0f);
     }
     ++rays;
-    const Rgb arrived = value * context_.scene.transmittance(c.from, c.to, c.type, crossings);
+    const Rgb arrived =
+        value * context_.scene.transmittance(c.from, c.to, c.type, crossings, c.camera);
     return settings_.clamp(arrived, edges) * scale;
   }
 

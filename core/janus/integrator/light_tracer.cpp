@@ -53,7 +53,8 @@ class LightTracer final : public PassIntegrator {
     }
     ++counters.splat_rays;
     const Connection& c = s->connection;
-    const Rgb value = c.value * context_.scene.transmittance(c.from, c.to, c.type, crossings);
+    const Rgb value =
+        c.value * context_.scene.transmittance(c.from, c.to, c.type, crossings, c.camera);
     if (!is_black(value)) {
       out.push_back({s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1)});
     }

@@ -115,7 +115,7 @@ class PathTracer final : public PassIntegrator {
       }
       const float t_end = glm::length(hit.p - walk.ray.origin);
       sum += lamps(walk, t_end);
-      const ShadingResult shading = scene.shade(hit);
+      const ShadingResult shading = scene.shade(hit, -d);
       if (size_t index; const MeshLight* light = scene.mesh_light(hit, index)) {
         sum += found(walk, index, light->at(hit, walk.previous.p, d, shading.emission));
       }
@@ -173,7 +173,7 @@ class PathTracer final : public PassIntegrator {
       if (!apart) {
         sum += lamps(walk, t_end);
       }
-      const ShadingResult shading = scene.shade(*hit);
+      const ShadingResult shading = scene.shade(*hit, wo);
       size_t index;
       if (const MeshLight* light = scene.mesh_light(*hit, index)) {
         const LightHit shine =

@@ -15,14 +15,20 @@ namespace janus {
 struct CacheBlock {
   std::vector<LightVertex> vertices;
   std::vector<Lobe> lobes;
+  std::vector<Reshading> reshadings;  // of those that depend on the view
 
   void clear() {
     vertices.clear();
     lobes.clear();
+    reshadings.clear();
   }
   void add(const PathVertex& v) {
     LightVertex out(v);
     out.first_lobe = static_cast<uint32_t>(lobes.size());
+    if (v.reshading.program) {
+      out.reshading = static_cast<int32_t>(reshadings.size());
+      reshadings.push_back(v.reshading);
+    }
     const BsdfView bsdf = v.bsdf();
     for (const Lobe& lobe : bsdf.lobes()) {
       if (!is_delta(lobe)) {  // view-free and connectible: the rest is never asked for
@@ -33,10 +39,12 @@ struct CacheBlock {
     vertices.push_back(out);
   }
   BsdfView bsdf(const LightVertex& v) const {
-    return {std::span(lobes).subspan(v.first_lobe, v.lobe_count), v.ng};
+    return {std::span(lobes).subspan(v.first_lobe, v.lobe_count), v.ng,
+            v.reshading < 0 ? nullptr : &reshadings[static_cast<size_t>(v.reshading)]};
   }
   size_t bytes() const {
-    return vertices.size() * sizeof(LightVertex) + lobes.size() * sizeof(Lobe);
+    return vertices.size() * sizeof(LightVertex) + lobes.size() * sizeof(Lobe) +
+           reshadings.size() * sizeof(Reshading);
   }
 };
 

@@ -6,26 +6,35 @@
 
 namespace janus {
 
-MeshLight::MeshLight(const Accel& accel, const Mesh& mesh, const Instance& instance, uint32_t index,
-                     std::vector<Rgb> radiance)
-    : accel_(accel), instance_(index), slot_(radiance.size(), kDark) {
+MeshLight::MeshLight(const Accel& accel, const Surfaces& surfaces, const Mesh& mesh,
+                     const Instance& instance, uint32_t index)
+    : accel_(accel), surfaces_(surfaces), instance_(index), slot_(mesh.triangles().size(), kDark) {
   name = instance.name;
   visibility = instance.visibility;
   const mat3 linear(instance.to_world);
   std::vector<float> weights;
-  for (uint32_t i = 0; i < radiance.size(); ++i) {
+  for (uint32_t i = 0; i < slot_.size(); ++i) {
     const Mesh::Triangle& t = mesh.triangles()[i];
+    const Program& program = surfaces.program(instance.material(t.material));
+    if (!program.emits() || !program.sample_emission) {
+      continue;
+    }
     const vec3 v0 = linear * mesh.positions()[t.v[0]];
     const vec3 v1 = linear * mesh.positions()[t.v[1]];
     const vec3 v2 = linear * mesh.positions()[t.v[2]];
     const float area = 0.5f * glm::length(cross(v1 - v0, v2 - v0));
-    const float weight = area * luminance(radiance[i]);
+    if (!(area > 0.0f)) {
+      continue;
+    }
+    const Rgb radiance = program.varying_emission ? mean_radiance(i) : program.emission;
+    const float weight = area * luminance(radiance);
     if (!(weight > 0.0f)) {
       continue;
     }
     const SurfaceInteraction surface = accel.surface_point(index, i, vec2(1.0f / 3.0f));
     slot_[i] = static_cast<uint32_t>(triangles_.size());
-    triangles_.push_back({radiance[i], surface.ng, surface.offset, 1.0f / area, {}, i});
+    triangles_.push_back(
+        {radiance, program.varying_emission, surface.ng, surface.offset, 1.0f / area, {}, i});
     weights.push_back(weight);
     power_ += 2.0f * kPi * weight;
   }
@@ -34,6 +43,39 @@ MeshLight::MeshLight(const Accel& accel, const Mesh& mesh, const Instance& insta
     // Either side, by the cosine.
     triangles_[i].density = {0.5f * kInvPi * by_power_.pmf(i) * triangles_[i].pdf_area, false};
   }
+}
+
+Rgb MeshLight::mean_radiance(uint32_t primitive) const {
+  constexpr int kSide = 4;  // the triangle in 16 alike, each looked at in its middle
+  Rgb sum(0.0f);
+  ShadingResult shading;
+  int k = 0;
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < 2 * (kSide - i) - 1; ++j, ++k) {
+      const float third = j % 2 ? 2.0f / 3.0f : 1.0f / 3.0f;
+      const vec2 b((static_cast<float>(i) + third) / kSide,
+                   (static_cast<float>(j / 2) + third) / kSide);
+      const SurfaceInteraction hit = accel_.surface_point(instance_, primitive, b);
+      // From all around and at every slant, by the cosine.
+      const vec2 u((static_cast<float>(k) + 0.5f) / (kSide * kSide),
+                   glm::fract(0.618034f * static_cast<float>(k)));
+      for (const float side : {1.0f, -1.0f}) {
+        const Frame frame(side * hit.ng);
+        surfaces_.shade(hit, frame.to_world(square_to_cosine_hemisphere(u)), shading);
+        sum += shading.emission;
+      }
+    }
+  }
+  return sum / (2.0f * kSide * kSide);
+}
+
+Rgb MeshLight::radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const {
+  if (!triangle.varying) {
+    return triangle.radiance;
+  }
+  ShadingResult shading;
+  surfaces_.shade(accel_.surface_point(instance_, triangle.primitive, barycentric), view, shading);
+  return shading.emission;
 }
 
 std::vector<Emitter> MeshLight::emitters() const {
@@ -60,13 +102,14 @@ std::optional<EmissionSample> MeshLight::sample_emission(vec2 u_position, vec2 u
   u_direction.x =
       std::min(front ? 2.0f * u_direction.x : 2.0f * u_direction.x - 1.0f, 0x1.fffffep-1f);
   const Triangle& triangle = triangles_[by_power_.sample(u_position.x, &u_position.x)];
-  const vec3 p = accel_.position(instance_, triangle.primitive, square_to_triangle(u_position));
+  const vec2 b = square_to_triangle(u_position);
+  const vec3 p = accel_.position(instance_, triangle.primitive, b);
   const vec3 n = front ? triangle.ng : -triangle.ng;
   const vec3 direction = Frame(n).to_world(square_to_cosine_hemisphere(u_direction));
   sample.emplace();
   sample->origin = offset_origin(p, triangle.ng, triangle.offset, direction);
   sample->direction = direction;
-  sample->weight = triangle.radiance / triangle.density.value;
+  sample->weight = radiance(triangle, b, direction) / triangle.density.value;
   sample->density = triangle.density;
   sample->normal = n;
   sample->pdf_area = triangle.pdf_area;
@@ -78,7 +121,8 @@ std::optional<IlluminationSample> MeshLight::sample_illumination(vec3 receiver, 
                                                                  vec2 u) const {
   std::optional<IlluminationSample> sample;
   const Triangle& triangle = this->triangle(primitive);
-  const vec3 p = accel_.position(instance_, primitive, square_to_triangle(u));
+  const vec2 b = square_to_triangle(u);
+  const vec3 p = accel_.position(instance_, primitive, b);
   const vec3 target = offset_origin(p, triangle.ng, triangle.offset, receiver - p);
   const vec3 d = target - receiver;
   const float d2 = length2(d);
@@ -94,7 +138,7 @@ std::optional<IlluminationSample> MeshLight::sample_illumination(vec3 receiver, 
   sample->wi = wi;
   sample->target = target;
   sample->distance2 = d2;
-  sample->radiance = triangle.radiance;
+  sample->radiance = radiance(triangle, b, -wi);
   sample->pdf_solid = triangle.pdf_area * d2 / cos_light;
   sample->emission = triangle.density;
   return sample;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "janus/geometry/accel.h"
+#include "janus/geometry/surfaces.h"
 #include "janus/light/light.h"
 #include "janus/math/discrete.h"
 
@@ -10,9 +11,9 @@ namespace janus {
 // The emitting triangles of one instance. Both sides shine, as in Cycles.
 class MeshLight final : public Light {
  public:
-  // `radiance` per triangle of the instance's mesh, 0 where it is not to be looked for.
-  MeshLight(const Accel& accel, const Mesh& mesh, const Instance& instance, uint32_t index,
-            std::vector<Rgb> radiance);
+  // Of instance `index`, whose materials emit. What is not to be looked for stays dark here.
+  MeshLight(const Accel& accel, const Surfaces& surfaces, const Mesh& mesh,
+            const Instance& instance, uint32_t index);
 
   float power() const override { return power_; }
   bool hittable() const override { return true; }
@@ -29,7 +30,8 @@ class MeshLight final : public Light {
  private:
   // A triangle that shines.
   struct Triangle {
-    Rgb radiance;
+    Rgb radiance;  // everywhere, or the mean of what was looked at
+    bool varying;  // over the triangle, or with the direction
     vec3 ng;
     float offset;    // as in SurfaceInteraction
     float pdf_area;  // 1 / area
@@ -39,8 +41,13 @@ class MeshLight final : public Light {
   static constexpr uint32_t kDark = 0xffffffffU;
 
   const Triangle& triangle(uint32_t primitive) const { return triangles_[slot_[primitive]]; }
+  // What the mesh's triangle emits: the mean over some of its points, from both sides.
+  Rgb mean_radiance(uint32_t primitive) const;
+  // At a point, into the unit direction `view`.
+  Rgb radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const;
 
   const Accel& accel_;
+  const Surfaces& surfaces_;
   uint32_t instance_;
   std::vector<Triangle> triangles_;
   std::vector<uint32_t> slot_;  // by primitive: its place in triangles_, or kDark

@@ -12,6 +12,7 @@ LightVertex::LightVertex(const PathVertex& v)
       mis(v.mis),
       bound(max_component(v.beta) * v.bsdf().peak()),
       first_lobe(0),
+      reshading(-1),
       edges(static_cast<uint16_t>(v.edges)),
       crossings(static_cast<uint16_t>(v.crossings)),
       max_edges(static_cast<uint16_t>(v.max_edges)),
@@ -181,6 +182,7 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
   joined.from = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wo);
   joined.to = to_camera->target;
   joined.type = RayType::Camera;
+  joined.camera = Scene::End::B;
   joined.crossings = v.crossings;
   splat->raster = to_camera->raster;
   splat->end = {v.hit.p + std::sqrt(to_camera->distance2) * wo, to_camera->density};

@@ -22,6 +22,7 @@ struct Connection {
   // For the connections that roulette has ended: a factor beside `value`, because clamping does not
   // act on it.
   float made_up = 1.0f;
+  Scene::End camera = Scene::End::A;  // which end of the ray is on the side of the camera
 };
 
 // A light vertex as the cache keeps it.
@@ -33,6 +34,7 @@ struct LightVertex {
   MisState mis;
   float bound;  // max |beta| times the peak of the BSDF
   uint32_t first_lobe;
+  int32_t reshading;  // in the cache, if the lobes depend on the view; -1: they do not
   uint16_t edges, crossings, max_edges;
   BounceCounts bounces;
   uint8_t lobe_count : 4;

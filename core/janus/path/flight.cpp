@@ -14,7 +14,7 @@ bool fly_past(const Scene& scene, const Ray& ray, RayType type, int max_crossing
       return false;
     }
     v.visibility = scene.instances[v.hit.instance].visibility;
-    scene.shade(v.hit, v.shading);
+    shade_from_light(scene, ray.direction, v);
     const bool blocks = contains(v.visibility, type);
     const bool may_end = (v.visibility & (kLabels | ray_bit(RayType::Camera))) != 0;
     const Rgb transparency = blocks ? v.shading.transparency : Rgb(1.0f);
@@ -86,7 +86,7 @@ void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossing
     if (!surface) {
       return;
     }
-    scene.shade(hit, shading);
+    scene.shade(hit, -ray.direction, shading);
     if (size_t index; !is_black(shading.emission)) {
       if (const MeshLight* light = scene.mesh_light(hit, index)) {
         report(index, light->at(hit, from, ray.direction, shading.emission));

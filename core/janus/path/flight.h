@@ -30,6 +30,15 @@ void lamps_between(const Scene& scene, const Ray& ray, float t_begin, float t_en
   });
 }
 
+// Shades the vertex where a light walk has arrived, flying in `direction`.
+inline void shade_from_light(const Scene& scene, vec3 direction, PathVertex& v) {
+  scene.shade(v.hit, -direction, v.shading, v.reshading);
+  if (v.reshading.program && scene.has_transparency) {
+    // What is let through is seen from the camera's side, which is ahead.
+    v.shading.transparency = scene.shade(v.hit, direction).transparency;
+  }
+}
+
 // Follows `ray`, which is of `type`, to the next vertex, which is written to `v.hit` and
 // `v.shading`. Multiplies `v.beta` by what the crossings let through, counts them in `v.crossings`
 // up to `max_crossings`, and calls on_segment(t_begin, t_end, surface) for each piece of the way,
@@ -37,8 +46,8 @@ void lamps_between(const Scene& scene, const Ray& ray, float t_begin, float t_en
 // leaves the scene; t counts from the ray's origin. False: the flight left the scene or was
 // absorbed.
 template <class OnSegment>
-bool fly(const Scene& scene, const Ray& ray, RayType type, int max_crossings, Sampler& sampler,
-         uint64_t& rays, PathVertex& v, OnSegment&& on_segment) {
+bool fly(const Scene& scene, const Ray& ray, RayType type, TransportMode mode, int max_crossings,
+         Sampler& sampler, uint64_t& rays, PathVertex& v, OnSegment&& on_segment) {
   Ray segment = ray;
   float t_begin = 0.0f;
   for (;;) {
@@ -48,7 +57,11 @@ bool fly(const Scene& scene, const Ray& ray, RayType type, int max_crossings, Sa
       return false;
     }
     const float t_end = glm::length(v.hit.p - ray.origin);
-    scene.shade(v.hit, v.shading);
+    if (mode == TransportMode::Radiance) {
+      scene.shade(v.hit, -ray.direction, v.shading, v.reshading);
+    } else {
+      shade_from_light(scene, ray.direction, v);
+    }
     on_segment(t_begin, t_end, true);
     const Rgb transparency = v.shading.transparency;
     if (is_black(transparency)) {

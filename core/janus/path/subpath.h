@@ -89,8 +89,8 @@ inline bool fly_from_light(const Scene& scene, const Ray& ray, RayMask possible,
                            const WalkSettings& settings, Sampler& sampler, uint64_t& rays,
                            PathVertex& v) {
   if (!settings.ray_types) {
-    return fly(scene, ray, RayType::Shadow, settings.max_crossings, sampler, rays, v,
-               [](float, float, bool) {});
+    return fly(scene, ray, RayType::Shadow, TransportMode::Importance, settings.max_crossings,
+               sampler, rays, v, [](float, float, bool) {});
   }
   if (possible == 0) {
     return false;
@@ -127,7 +127,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   v.max_edges = std::min(settings.max_edges, light.max_edges);
   // What a mirror shows of the light is no shadow ray.
   constexpr RayMask kDeltas = ray_bit(RayType::Glossy) | ray_bit(RayType::Transmission);
-  const RayMask types = ray_bit(light.shadow_ray) | (scene.has_deltas ? kDeltas : 0);
+  const RayMask types = ray_bit(light.shadow_ray) | (scene.surfaces.any_delta() ? kDeltas : 0);
   const Ray ray{emission->origin, emission->direction};
   if (!fly_from_light(scene, ray, types, settings, sampler, counters.light_rays, v)) {
     return;
@@ -139,7 +139,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   }
   if (*endpoint != emission->origin) {
     v.beta *= scene.transmittance(*endpoint, emission->origin, first_type(v.segment),
-                                  settings.max_crossings - v.crossings);
+                                  settings.max_crossings - v.crossings, Scene::End::B);
   }
   const float joint = pmf * emission_density(emission->density, std::abs(dot(v.back, v.hit.ng)),
                                              length2(v.hit.p - *endpoint));
@@ -263,8 +263,8 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
                         found(index, hit, v.beta * through);
                       });
     }
-    if (!fly(scene, ray, type, settings.max_crossings, sampler, counters.camera_rays, v,
-             on_segment)) {
+    if (!fly(scene, ray, type, TransportMode::Radiance, settings.max_crossings, sampler,
+             counters.camera_rays, v, on_segment)) {
       return alpha;
     }
     v.back = -ray.direction;

@@ -34,7 +34,8 @@ struct Departure {
 // A scattering vertex of a subpath.
 struct PathVertex {
   SurfaceInteraction hit;
-  ShadingResult shading;
+  ShadingResult shading;  // as seen from where the walk comes
+  Reshading reshading;
   vec3 back;  // unit direction to the previous vertex: wi on light, wo on camera subpaths
   Rgb beta;   // light: flux that arrives; camera: throughput
   MisState mis;
@@ -50,7 +51,9 @@ struct PathVertex {
   LightEnd light_end;  // light subpaths: their start
   CameraEnd camera_end;  // camera subpaths: theirs
 
-  BsdfView bsdf() const { return shading.bsdf.view(hit.ng); }
+  BsdfView bsdf() const {
+    return shading.bsdf.view(hit.ng, reshading.program ? &reshading : nullptr);
+  }
 
   // The labels that a vertex of a light subpath may have; `delta`: it scatters by a delta.
   RayMask possible_labels(bool delta) const {

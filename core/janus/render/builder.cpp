@@ -26,15 +26,13 @@ class Commit {
  public:
   Commit(Scene& scene, const CancelToken& cancel) : scene_(scene), cancel_(cancel) {}
 
-  void add_materials(const std::map<std::string, MaterialDesc>& materials) {
-    scene_.programs.push_back(default_surface());
+  void add_materials(const std::map<std::string, MaterialDesc>& materials, const ImageMap& images) {
+    scene_.surfaces.add_program(default_surface());
     for (const auto& [key, desc] : materials) {
-      program_index_[key] = static_cast<uint32_t>(scene_.programs.size());
       const std::string& name = desc.name.empty() ? key : desc.name;
-      scene_.programs.push_back(compile(desc.graph, name, scene_.diagnostics));
-      scene_.programs.back().sample_emission = desc.sample_emission;
-      scene_.has_deltas =
-          scene_.has_deltas || std::ranges::any_of(scene_.programs.back().lobes, is_delta);
+      Program program = compile(desc.graph, name, images, scene_.diagnostics);
+      program.sample_emission = desc.sample_emission;
+      program_index_[key] = scene_.surfaces.add_program(std::move(program), desc.material_index);
     }
   }
 
@@ -63,19 +61,34 @@ class Commit {
         warn(name, "its transform is flat or not finite; the object is left out");
         continue;
       }
+      instance.color = desc.color;
+      instance.object_index = desc.object_index;
+      instance.random = desc.random;
       instance.normal_to_world = glm::transpose(glm::inverse(mat3(desc.transform)));
       for (const auto& material : desc.materials) {
-        instance.materials.push_back(material ? find_program(key, *material) : 0);
+        const uint32_t program = material ? find_program(key, *material) : 0;
+        instance.materials.push_back(scene_.surfaces.bind(program, scene_.meshes[instance.mesh]));
       }
       if (instance.materials.empty()) {
         instance.materials.push_back(0);
       }
       for (const uint32_t program : instance.materials) {
-        instance.opaque = instance.opaque && !scene_.programs[program].has_transparency();
+        instance.opaque = instance.opaque && !scene_.surfaces.program(program).has_transparency();
       }
       scene_.has_transparency = scene_.has_transparency || !instance.opaque;
       scene_.instances.push_back(std::move(instance));
     }
+  }
+
+  void set_objects(const CameraDesc& camera) {
+    mat4 flip(1.0f);
+    flip[2][2] = -1.0f;  // Cycles' camera looks along its +z
+    const float pixel =
+        camera.pixel_size > 0.0f ? camera.pixel_size : 1e-3f * (camera.top - camera.bottom);
+    const bool parallel = camera.type == CameraType::Orthographic;
+    scene_.surfaces.set_objects(
+        scene_.meshes, scene_.instances, flip * glm::inverse(camera.transform),
+        {vec3(camera.transform[3]), parallel ? 0.0f : pixel, parallel ? pixel : 0.0f});
   }
 
   void build_accel() {
@@ -87,21 +100,19 @@ class Commit {
       Instance& instance = scene_.instances[i];
       const bool emits =
           std::any_of(instance.materials.begin(), instance.materials.end(),
-                      [&](uint32_t p) { return !is_black(scene_.programs[p].emission); });
+                      [&](uint32_t p) { return scene_.surfaces.program(p).emits(); });
       if (!emits) {
         continue;
       }
-      const Mesh& mesh = scene_.meshes[instance.mesh];
-      std::vector<Rgb> radiance;
-      radiance.reserve(mesh.triangles().size());
-      bool by_chance = false;  // rays find it, though nobody looks for it
-      for (const Mesh::Triangle& triangle : mesh.triangles()) {
-        const Program& program = scene_.programs[instance.material(triangle.material)];
-        radiance.push_back(program.sample_emission ? program.emission : Rgb(0.0f));
-        by_chance = by_chance || !program.sample_emission;
-      }
-      auto light = std::make_unique<MeshLight>(*scene_.accel, mesh, instance,
-                                               static_cast<uint32_t>(i), std::move(radiance));
+      // Rays find what nobody looks for, or what was dark wherever one looked.
+      const bool by_chance =
+          std::any_of(instance.materials.begin(), instance.materials.end(), [&](uint32_t p) {
+            const Program& program = scene_.surfaces.program(p);
+            return program.emits() && (!program.sample_emission || program.varying_emission);
+          });
+      auto light =
+          std::make_unique<MeshLight>(*scene_.accel, scene_.surfaces, scene_.meshes[instance.mesh],
+                                      instance, static_cast<uint32_t>(i));
       if (light->power() > 0.0f || by_chance) {
         instance.light = static_cast<int>(scene_.lights.size());
         scene_.lights.push_back(std::move(light));
@@ -133,7 +144,7 @@ class Commit {
       }
       return;
     }
-    const Program program = compile(*world.graph, world.name, scene_.diagnostics);
+    const Program program = compile(*world.graph, world.name, images, scene_.diagnostics);
     if (!program.lobes.empty()) {
       scene_.diagnostics.push_back(
           {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
@@ -184,7 +195,7 @@ class Commit {
     }
     Rgb strength(1.0f);
     if (lamp.graph) {
-      strength = compile(*lamp.graph, lamp.name, scene_.diagnostics).emission;
+      strength = compile(*lamp.graph, lamp.name, {}, scene_.diagnostics).emission;
     }
     const Rgb power = lamp_power(lamp, strength);
     if (!janus::is_finite(power)) {
@@ -328,9 +339,10 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   auto scene = std::make_shared<Scene>();
   scene->camera = *camera_;
   Commit commit(*scene, cancel);
-  commit.add_materials(materials_);
+  commit.add_materials(materials_, images_);
   commit.add_meshes(meshes_);
   commit.add_instances(instances_);
+  commit.set_objects(*camera_);
   commit.build_accel();
   commit.add_mesh_lights();
   commit.add_lamps(lights_);

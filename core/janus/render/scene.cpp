@@ -3,7 +3,8 @@
 
 namespace janus {
 
-Rgb Scene::transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings) const {
+Rgb Scene::transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings,
+                                 End camera) const {
   if (accel->occluded_opaque(a, b, type)) {
     return Rgb(0.0f);
   }
@@ -18,7 +19,7 @@ Rgb Scene::transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings
     if (!accel->intersect_transparent(ray, type, hit)) {
       return result;
     }
-    result *= shade(hit).transparency;
+    result *= shade(hit, camera == End::A ? -d : d).transparency;
     if (is_black(result) || crossings >= max_crossings) {
       return Rgb(0.0f);
     }

@@ -7,12 +7,12 @@
 
 #include "janus/geometry/accel.h"
 #include "janus/geometry/mesh.h"
+#include "janus/geometry/surfaces.h"
 #include "janus/light/lamp_index.h"
 #include "janus/light/light_sampler.h"
 #include "janus/light/mesh_light.h"
 #include "janus/scene/description.h"
 #include "janus/scene/diagnostics.h"
-#include "janus/shading/program.h"
 
 namespace janus {
 
@@ -32,23 +32,32 @@ class Scene {
     }
     return hit;
   }
-  void shade(const SurfaceInteraction& hit, ShadingResult& result) const {
-    programs[hit.material].run(hit.ns, result);
+  // What the surface does there, seen from the unit direction `view`.
+  void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result) const {
+    surfaces.shade(hit, view, result);
+  }
+  void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result,
+             Reshading& reshading) const {
+    surfaces.shade(hit, view, result, reshading);
   }
   bool occluded(vec3 a, vec3 b, RayType type = RayType::Shadow) const {
     return accel->occluded(a, b, type);
   }
 
   // What the surfaces that rays of `type` meet on the open segment from `a` to `b` let through;
-  // black if one of them is opaque, or if they are more than `max_crossings`.
-  Rgb transmittance(vec3 a, vec3 b, RayType type, int max_crossings) const {
+  // black if one of them is opaque, or if they are more than `max_crossings`. `camera`: the end on
+  // the camera's side, from which they are seen.
+  enum class End { A, B };
+  Rgb transmittance(vec3 a, vec3 b, RayType type, int max_crossings, End camera = End::A) const {
     if (!has_transparency) {
       return Rgb(occluded(a, b, type) ? 0.0f : 1.0f);
     }
-    return transmittance_through(a, b, type, max_crossings);
+    return transmittance_through(a, b, type, max_crossings, camera);
   }
-  ShadingResult shade(const SurfaceInteraction& hit) const {
-    return programs[hit.material].run(hit.ns);
+  ShadingResult shade(const SurfaceInteraction& hit, vec3 view) const {
+    ShadingResult result;
+    shade(hit, view, result);
+    return result;
   }
 
   // The emitter that a surface is part of, if light paths can start on it.
@@ -63,21 +72,20 @@ class Scene {
 
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
-  std::vector<Program> programs;
+  Surfaces surfaces;
   std::unique_ptr<Accel> accel;
   std::vector<std::unique_ptr<Light>> lights;  // mesh lights first
   std::vector<size_t> lamps;  // the lights that rays meet without a surface; the world last
   LampIndex lamp_index;
   LightSampler light_sampler;
   bool has_transparency = false;  // of some surface
-  bool has_deltas = false;        // some surface scatters into single directions
   bool has_unblocked = false;     // some light casts no shadows
   bool has_ray_types = false;     // that, or some object or light is not visible to all rays
   CameraDesc camera;
   Diagnostics diagnostics;
 
  private:
-  Rgb transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings) const;
+  Rgb transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings, End camera) const;
 };
 
 }  // namespace janus

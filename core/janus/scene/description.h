@@ -16,6 +16,17 @@
 
 namespace janus {
 
+// Whose values an attribute holds: one for the mesh, or one each for its points, corners or faces.
+enum class AttributeDomain { Mesh, Point, Corner, Face };
+
+// Numbers on a mesh, under the key that programs ask for (see shading/node_emitter.h).
+struct AttributeDesc {
+  std::string key;
+  AttributeDomain domain = AttributeDomain::Point;
+  int channels = 3;           // 1 to 4
+  std::vector<float> values;  // interleaved
+};
+
 struct MeshDesc {
   std::string name;
   std::vector<vec3> positions;
@@ -24,6 +35,8 @@ struct MeshDesc {
   std::vector<vec3> vertex_normals;        // per position; or
   std::vector<vec3> corner_normals;        // per corner; neither: flat shading
   std::vector<uint32_t> material_indices;  // per triangle, slot of the instance; empty: slot 0
+  std::vector<uint32_t> faces;             // per triangle, its face; empty: each is a face
+  std::vector<AttributeDesc> attributes;
 };
 
 struct InstanceDesc {
@@ -32,12 +45,17 @@ struct InstanceDesc {
   mat4 transform = mat4(1.0f);                        // object to world
   std::vector<std::optional<std::string>> materials;  // keys by slot; nullopt: default surface
   RayMask visibility = kAllRays;                      // the rays that meet it
+  // What the Object Info node says.
+  vec4 color = vec4(1.0f);
+  float object_index = 0.0f;  // the pass index
+  float random = 0.0f;        // a number of the instance's own, in [0, 1]
 };
 
 struct MaterialDesc {
   std::string name;
   NodeGraph graph;
   bool sample_emission = true;  // false: what it emits is found by chance only
+  float material_index = 0.0f;  // the pass index
 };
 
 // A picture for texture nodes, which name its key in their property "image".
@@ -45,6 +63,7 @@ struct ImageDesc {
   std::string name;
   std::shared_ptr<const Image> pixels;  // three channels or more, scene-linear unless `srgb`
   bool srgb = false;                    // the pixels are encoded as sRGB
+  bool associated = false;              // colours have been multiplied by alpha (as encoded)
 };
 
 enum class LightType { Point, Spot, Sun, Area };
@@ -95,6 +114,8 @@ struct CameraDesc {
   int aperture_blades = 0;       // corners; below 3: round
   float aperture_rotation = 0.0f;
   float aperture_ratio = 1.0f;  // height to width; 2: half as wide
+  // The height of a pixel in the units of the frame: how closely bump looks. 0: a thousandth.
+  float pixel_size = 0.0f;
 };
 
 }  // namespace janus

@@ -22,7 +22,8 @@ struct NodeLink {
 // What feeds an input: nothing (an implicit value such as the shading normal), a constant, or a
 // link. Colours are vec4 (RGBA).
 using NodeInput = std::variant<std::monostate, float, vec3, vec4, std::string, NodeLink>;
-using NodeProperty = std::variant<bool, float, std::string>;
+// Lists hold what ramps and curves were sampled to.
+using NodeProperty = std::variant<bool, float, std::string, std::vector<float>>;
 
 struct Node {
   std::string name;

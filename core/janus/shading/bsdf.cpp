@@ -53,6 +53,9 @@ float Bsdf::albedo() const {
 }
 
 float BsdfView::peak() const {
+  if (reshading_) {
+    return 1e15f;  // nobody knows, and roulette must not end what another view shows
+  }
   float sum = 0.0f;
   for (const Lobe& lobe : lobes_) {
     if (!is_delta(lobe)) {
@@ -64,6 +67,9 @@ float BsdfView::peak() const {
 }
 
 bool BsdfView::connectible() const {
+  if (reshading_) {
+    return true;  // from somewhere
+  }
   for (const Lobe& lobe : lobes_) {
     if (!is_delta(lobe)) {
       return true;
@@ -73,6 +79,9 @@ bool BsdfView::connectible() const {
 }
 
 bool BsdfView::transmits() const {
+  if (reshading_) {
+    return may_transmit(*reshading_);
+  }
   for (const Lobe& lobe : lobes_) {
     if (janus::transmits(lobe)) {
       return true;
@@ -81,14 +90,10 @@ bool BsdfView::transmits() const {
   return false;
 }
 
-BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
-  const Directions d{wo, wi, dot(wo, ng_), dot(wi, ng_)};
+BsdfEval BsdfView::evaluate_lobes(std::span<const Lobe> lobes, const Directions& d) const {
   BsdfEval sum;
-  if (d.wo_ng == 0.0f || d.wi_ng == 0.0f) {
-    return sum;
-  }
   const float grazing_o = grazing(d.wo_ng), grazing_i = grazing(d.wi_ng);
-  for (const Lobe& lobe : lobes_) {
+  for (const Lobe& lobe : lobes) {
     if (is_delta(lobe)) {
       continue;
     }
@@ -99,6 +104,30 @@ BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
     }
     sum.pdf_radiance += pmf(lobe, grazing_o) * e.pdf_radiance;
     sum.pdf_importance += pmf(lobe, grazing_i) * e.pdf_importance;
+  }
+  return sum;
+}
+
+BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
+  const Directions d{wo, wi, dot(wo, ng_), dot(wi, ng_)};
+  if (d.wo_ng == 0.0f || d.wi_ng == 0.0f) {
+    return {};
+  }
+  BsdfEval sum = evaluate_lobes(lobes_, d);
+  if (reshading_ && !alike(*reshading_, wo, wi)) {
+    // Ours are those of the camera side or of the light side: get the others.
+    const vec3 view = view_of(*reshading_);
+    const bool camera = dot(view, wo) >= dot(view, wi);
+    Bsdf other;
+    lobes_for_view(*reshading_, camera ? wi : wo, other);
+    const BsdfEval seen = evaluate_lobes(other.lobes(), d);
+    if (camera) {
+      sum.pdf_importance = seen.pdf_importance;
+    } else {
+      const float pdf_importance = sum.pdf_importance;
+      sum = seen;
+      sum.pdf_importance = pdf_importance;
+    }
   }
   if (mode == TransportMode::Importance) {
     const float adjoint = std::abs(d.wo_ng / d.wi_ng);
@@ -176,15 +205,19 @@ std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen,
   const vec3 wo = radiance ? from : to, wi = radiance ? to : from;
   const float jacobian =
       event->transmitted ? refraction_jacobian(wo, wi, event->normal, eta2) : 1.0f;
-  // A light walk gains the jacobian of the delta and the cosines of the adjoint (Veach 1997, 5.3).
-  Rgb weight = event->color / chosen;
-  if (!radiance) {
-    weight *= jacobian * std::abs(to_ng / from_ng);
-  }
   // The two walks measure their discrete event against different solid angles: beside the choice of
   // the lobe, the ratio of the densities is the jacobian.
   const float own = chosen * event->probability;
-  const float other = event->one_way ? 0.0f : pmf(lobe, grazing(to_ng)) * event->probability;
+  float other = event->one_way ? 0.0f : pmf(lobe, grazing(to_ng)) * event->probability;
+  Rgb color = event->color;
+  if (reshading_ && !alike(*reshading_, from, to)) {
+    reshade_event(lobe, from, u, mode, to, event->probability, color, other);
+  }
+  // A light walk gains the jacobian of the delta and the cosines of the adjoint (Veach 1997, 5.3).
+  Rgb weight = color / chosen;
+  if (!radiance) {
+    weight *= jacobian * std::abs(to_ng / from_ng);
+  }
   const float pdf_radiance = (radiance ? own : other) * jacobian;
   const float pdf_importance = radiance ? other : own;
   return BsdfSample{to,
@@ -194,6 +227,41 @@ std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen,
                     true,
                     radiance ? 1.0f : eta2,
                     event->transmitted};
+}
+
+// What the lobes seen from `to` make of an event that `lobe`, seen from `from`, has made: the
+// density of the opposite event (`other`), and on light walks, whose value is seen from there, the
+// `color`.
+void BsdfView::reshade_event(const Lobe& lobe, vec3 from, float u, TransportMode mode, vec3 to,
+                             float probability, Rgb& color, float& other) const {
+  // The lobe's counterpart: the same kind of surface, in the same place among those of its kind.
+  const auto same = [&](const Lobe& l) {
+    return is_delta(l) && l.type == lobe.type && std::abs(l.ior - lobe.ior) < 1e-6f &&
+           dot(l.normal, lobe.normal) > 0.99999f;
+  };
+  auto place = std::count_if(lobes_.data(), &lobe, same);
+  Bsdf seen;
+  lobes_for_view(*reshading_, to, seen);
+  const Lobe* found = nullptr;
+  for (const Lobe& candidate : seen.lobes()) {
+    if (same(candidate) && place-- == 0) {
+      found = &candidate;
+    }
+  }
+  if (!found) {
+    other = 0.0f;
+    color = mode == TransportMode::Importance ? Rgb(0.0f) : color;
+    return;
+  }
+  if (other > 0.0f) {
+    other = pmf(*found, grazing(dot(to, ng_))) * probability;
+  }
+  if (mode == TransportMode::Importance) {
+    const auto event = sample_delta(*found, ng_, from, u, mode);
+    color = event && dot(event->direction, to) > 0.9999f
+                ? event->color * (event->probability / probability)
+                : Rgb(0.0f);
+  }
 }
 
 }  // namespace janus

@@ -18,6 +18,8 @@ namespace janus {
 // (wo is sampled).
 enum class TransportMode { Radiance, Importance };
 
+struct Directions;
+
 struct BsdfSample {
   vec3 direction;
   // f |cos| / pdf for the walk's mode, adjoint corrections included.
@@ -44,11 +46,25 @@ struct BsdfEval {
   Rgb diffuse = Rgb(0.0f);
 };
 
+class Bsdf;
+struct Reshading;
+
+// The lobes of a surface that looks different from everywhere, seen from `view`; the direction for
+// which those were made that its Bsdf holds; whether another direction needs others at all.
+void lobes_for_view(const Reshading& reshading, vec3 view, Bsdf& lobes);
+vec3 view_of(const Reshading& reshading);
+bool alike(const Reshading& reshading, vec3 a, vec3 b);
+bool may_transmit(const Reshading& reshading);
+
 // A view of lobes at a point with geometric normal `ng` (unit, front side). Lobes of a cache may
 // leave out the deltas of the Bsdf that they come from.
+//
+// Where lobes depend on the view (`reshading`), the value is that of the lobes seen from the camera
+// side; each density is that of the lobes seen from where its walk comes.
 class BsdfView {
  public:
-  BsdfView(std::span<const Lobe> lobes, vec3 ng) : lobes_(lobes), ng_(ng) {}
+  BsdfView(std::span<const Lobe> lobes, vec3 ng, const Reshading* reshading = nullptr)
+      : lobes_(lobes), ng_(ng), reshading_(reshading) {}
 
   // True if some lobe is not a delta: the vertex can be joined to another one.
   bool connectible() const;
@@ -80,9 +96,13 @@ class BsdfView {
                                              TransportMode mode) const;
   std::optional<BsdfSample> sample_event(const Lobe& lobe, float chosen, vec3 from, float u,
                                          TransportMode mode) const;
+  BsdfEval evaluate_lobes(std::span<const Lobe> lobes, const Directions& d) const;
+  void reshade_event(const Lobe& lobe, vec3 from, float u, TransportMode mode, vec3 to,
+                     float probability, Rgb& color, float& other) const;
 
   std::span<const Lobe> lobes_;
   vec3 ng_;
+  const Reshading* reshading_;
 };
 
 inline constexpr int kMaxLobes = 8;
@@ -114,7 +134,9 @@ class Bsdf {
   // Sets the selection probabilities by the lobes' albedos.
   void finish();
 
-  BsdfView view(vec3 ng) const { return {lobes(), ng}; }
+  BsdfView view(vec3 ng, const Reshading* reshading = nullptr) const {
+    return {lobes(), ng, reshading};
+  }
   std::span<const Lobe> lobes() const { return {lobes_, static_cast<size_t>(count_)}; }
   int size() const { return count_; }
 

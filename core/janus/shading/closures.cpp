@@ -4,158 +4,263 @@
 #include <algorithm>
 
 #include "janus/shading/fresnel.h"
+#include "janus/shading/node_reader.h"
 
 namespace janus {
 
 namespace {
 
+using enum SocketType;
+
 // Below it Cycles drops a component.
 constexpr float kCutoff = 1e-5f;
 
-struct Distribution {
-  float alpha;
-  bool multiscatter;
-};
-
-// Width and kind of the facets of a node. Other distributions than GGX are said, where it matters.
-Distribution distribution(const NodeReader& node, std::string_view fallback) {
-  const float roughness = node.fraction("Roughness");
-  const std::string name = node.property("distribution", fallback);
-  if (name != "GGX" && name != "MULTI_GGX" && roughness > 0.0f) {
-    node.warn("the distribution " + name + " is not supported yet; GGX is used");
-  }
-  return {sqr(roughness), name == "MULTI_GGX"};
-}
-
-void without_thin_film(const NodeReader& node) {
-  if (node.number("Thin Film Thickness") > 0.0f) {
-    node.warn("thin film is not supported yet; it is left out");
+void add_lobe(const ClosureArguments& a, Lobe lobe, ShadingResult& out) {
+  if (!is_black(lobe.weight)) {
+    lobe.normal = a.normal();
+    out.bsdf.add(lobe);
   }
 }
 
 // Cycles' clamp: refraction with an index of 0 is not defined.
-float index_of_refraction(const NodeReader& node) { return std::max(node.number("IOR"), kCutoff); }
+float usable_index(float ior) { return std::max(ior, kCutoff); }
 
 Lobe rough_diffuse(Rgb weight, Rgb albedo, float roughness) {
   return roughness < kCutoff ? diffuse_lobe(weight) : oren_nayar_lobe(weight, albedo, roughness);
 }
 
-Lobe glossy(const NodeReader& node, float share) {
-  if (node.number("Anisotropy") != 0.0f) {
-    node.warn("anisotropy is not supported yet; 0 is used");
+// --- What cannot be rendered as asked ------------------------------------------------------------
+
+// Other distributions than GGX, where it matters.
+void check_distribution(const NodeReader& node, std::string_view fallback) {
+  const std::string name = node.property("distribution", fallback);
+  if (name != "GGX" && name != "MULTI_GGX" &&
+      (node.link("Roughness") || node.number("Roughness") > 0.0f)) {
+    node.warn("the distribution " + name + " is not supported yet; GGX is used");
   }
-  const Distribution facets = distribution(node, "MULTI_GGX");
-  const Rgb color = node.positive_color("Color");
-  return glossy_lobe(share * color, facets.alpha, facets.multiscatter, color);
 }
 
-Lobe glass(const NodeReader& node, float share) {
-  without_thin_film(node);
-  const Distribution facets = distribution(node, "MULTI_GGX");
-  return glass_lobe(Rgb(share), node.positive_color("Color"), true, index_of_refraction(node),
-                    facets.alpha, facets.multiscatter);
+// A parameter of a later version, with its neutral value.
+void check_neutral(const NodeReader& node, const char* socket, float neutral, const char* message) {
+  if (node.link(socket) || node.color(socket) != Rgb(neutral)) {
+    node.warn(message);
+  }
 }
 
-// Components of later versions, each with its socket and the neutral value.
-void principled_limits(const NodeReader& node) {
-  const auto limit = [&](const char* socket, float neutral, const char* message) {
-    if (node.color(socket) != Rgb(neutral)) {
-      node.warn(message);
-    }
-  };
-  limit("Subsurface Weight", 0.0f, "subsurface scattering is not supported yet; diffuse is used");
-  limit("Coat Weight", 0.0f, "coat is not supported yet; it is left out");
-  limit("Sheen Weight", 0.0f, "sheen is not supported yet; it is left out");
-  limit("Anisotropic", 0.0f, "anisotropy is not supported yet; 0 is used");
-  limit("Specular Tint", 1.0f, "specular tint is not supported yet; white is used");
-  without_thin_film(node);
+void check_thin_film(const NodeReader& node) {
+  check_neutral(node, "Thin Film Thickness", 0.0f,
+                "thin film is not supported yet; it is left out");
+}
+
+// --- The closures --------------------------------------------------------------------------------
+
+namespace diffuse {
+enum Input { Color, Roughness };
+constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 0.8f},
+                                  {"Roughness", Float, 0.0f},
+                                  {"Normal", Vector, Implicit::Normal}};
+
+void add(const ClosureArguments& a, ShadingResult& out) {
+  const Rgb color = a.positive_color(Color);
+  add_lobe(a, rough_diffuse(a.share() * color, color, a.number(Roughness)), out);
+}
+}  // namespace diffuse
+
+namespace glossy {
+enum Input { Color, Roughness };
+constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 0.8f},
+                                  {"Roughness", Float, 0.5f},
+                                  {"Anisotropy", Float, 0.0f},
+                                  {"Normal", Vector, Implicit::Normal}};
+
+void add(const ClosureArguments& a, ShadingResult& out) {
+  const Rgb color = a.positive_color(Color);
+  add_lobe(a, glossy_lobe(a.share() * color, sqr(a.fraction(Roughness)), a.multiscatter(), color),
+           out);
+}
+
+void check(const NodeReader& node) {
+  check_neutral(node, "Anisotropy", 0.0f, "anisotropy is not supported yet; 0 is used");
+  check_distribution(node, "MULTI_GGX");
+}
+}  // namespace glossy
+
+namespace glass {
+enum Input { Color, Roughness, Ior };
+constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 1.0f},
+                                  {"Roughness", Float, 0.0f},
+                                  {"IOR", Float, 1.5f},
+                                  {"Normal", Vector, Implicit::Normal},
+                                  {"Thin Film Thickness", Float, 0.0f}};
+
+void add(const ClosureArguments& a, ShadingResult& out) {
+  add_lobe(a,
+           glass_lobe(Rgb(a.share()), a.positive_color(Color), true, usable_index(a.number(Ior)),
+                      sqr(a.fraction(Roughness)), a.multiscatter()),
+           out);
+}
+
+void check(const NodeReader& node) {
+  check_thin_film(node);
+  check_distribution(node, "MULTI_GGX");
+}
+}  // namespace glass
+
+namespace refraction {
+enum Input { Color, Roughness, Ior };
+constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 1.0f},
+                                  {"Roughness", Float, 0.0f},
+                                  {"IOR", Float, 1.45f},
+                                  {"Normal", Vector, Implicit::Normal}};
+
+void add(const ClosureArguments& a, ShadingResult& out) {
+  add_lobe(a,
+           refraction_lobe(a.share() * a.positive_color(Color), usable_index(a.number(Ior)),
+                           sqr(a.fraction(Roughness))),
+           out);
+}
+
+void check(const NodeReader& node) { check_distribution(node, "BECKMANN"); }
+}  // namespace refraction
+
+namespace translucent {
+constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 0.8f},
+                                  {"Normal", Vector, Implicit::Normal}};
+
+void add(const ClosureArguments& a, ShadingResult& out) {
+  add_lobe(a, translucent_lobe(a.share() * a.positive_color(0)), out);
+}
+}  // namespace translucent
+
+namespace transparent {
+constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 1.0f}};
+
+void add(const ClosureArguments& a, ShadingResult& out) {
+  out.transparency += a.share() * a.positive_color(0);
+}
+}  // namespace transparent
+
+namespace emission {
+constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 1.0f}, {"Strength", Float, 1.0f}};
+
+void add(const ClosureArguments& a, ShadingResult& out) {
+  out.emission += a.share() * a.positive_color(0) * std::max(a.number(1), 0.0f);
+}
+}  // namespace emission
+
+namespace principled {
+enum Input {
+  BaseColor,
+  Metallic,
+  Roughness,
+  Ior,
+  Alpha,
+  DiffuseRoughness,
+  SpecularLevel,
+  Transmission,
+  EmissionColor,
+  EmissionStrength
+};
+constexpr SocketDecl kInputs[] = {{"Base Color", Color, 0.8f},
+                                  {"Metallic", Float, 0.0f},
+                                  {"Roughness", Float, 0.5f},
+                                  {"IOR", Float, 1.5f},
+                                  {"Alpha", Float, 1.0f},
+                                  {"Diffuse Roughness", Float, 0.0f},
+                                  {"Specular IOR Level", Float, 0.5f},
+                                  {"Transmission Weight", Float, 0.0f},
+                                  {"Emission Color", Color, 1.0f},
+                                  {"Emission Strength", Float, 0.0f},
+                                  {"Normal", Vector, Implicit::Normal},
+                                  {"Subsurface Weight", Float, 0.0f},
+                                  {"Specular Tint", Color, 1.0f},
+                                  {"Anisotropic", Float, 0.0f},
+                                  {"Coat Weight", Float, 0.0f},
+                                  {"Sheen Weight", Float, 0.0f},
+                                  {"Thin Film Thickness", Float, 0.0f}};
+
+// The index of the specular layer: the level moves it away from the IOR's.
+float layer_index(float ior, float level) {
+  if (level == 0.5f) {
+    return ior;
+  }
+  const float eta = index_from_fresnel_normal(2.0f * level * fresnel_normal(ior));
+  return ior < 1.0f ? 1.0f / eta : eta;
 }
 
 // Cycles mixes from the outside in: alpha, metallic, transmission, and a dielectric layer over
 // diffuse. Each takes its part of the weight that the ones before have left.
-Closures principled(const NodeReader& node, float share) {
-  principled_limits(node);
-  Closures out;
-  const float alpha = node.fraction("Alpha");
-  out.transparency = Rgb(share * (1.0f - alpha));
-  float weight = share * alpha;
-  out.emission = weight * node.positive_color("Emission Color") *
-                 std::max(node.number("Emission Strength"), 0.0f);
+void add(const ClosureArguments& a, ShadingResult& out) {
+  const float alpha = a.fraction(Alpha);
+  out.transparency += Rgb(a.share() * (1.0f - alpha));
+  float weight = a.share() * alpha;
+  out.emission +=
+      weight * a.positive_color(EmissionColor) * std::max(a.number(EmissionStrength), 0.0f);
 
-  const Rgb base = node.positive_color("Base Color"), clamped = glm::min(base, Rgb(1.0f));
-  const float ior = index_of_refraction(node);
-  const Distribution facets = distribution(node, "MULTI_GGX");
+  const Rgb base = a.positive_color(BaseColor), clamped = glm::min(base, Rgb(1.0f));
+  const float ior = usable_index(a.number(Ior)), width = sqr(a.fraction(Roughness));
 
-  const float metallic = node.fraction("Metallic");
+  const float metallic = a.fraction(Metallic);
   if (metallic > kCutoff) {
-    out.lobes.push_back(
-        metal_lobe(Rgb(weight * metallic), clamped, facets.alpha, facets.multiscatter));
+    add_lobe(a, metal_lobe(Rgb(weight * metallic), clamped, width, a.multiscatter()), out);
     weight *= 1.0f - metallic;
   }
-  const float transmission = node.fraction("Transmission Weight");
+  const float transmission = a.fraction(Transmission);
   if (transmission > kCutoff) {
-    out.lobes.push_back(glass_lobe(Rgb(weight * transmission), glm::sqrt(clamped), false, ior,
-                                   facets.alpha, facets.multiscatter));
+    add_lobe(a,
+             glass_lobe(Rgb(weight * transmission), glm::sqrt(clamped), false, ior, width,
+                        a.multiscatter()),
+             out);
     weight *= 1.0f - transmission;
   }
-
-  float eta = ior;
-  const float level = std::max(node.number("Specular IOR Level"), 0.0f);
-  if (level != 0.5f) {
-    eta = index_from_fresnel_normal(2.0f * level * fresnel_normal(ior));
-    if (ior < 1.0f) {
-      eta = 1.0f / eta;
-    }
+  if (weight == 0.0f) {
+    return;
   }
-  Lobe diffuse = rough_diffuse(weight * base, base, node.fraction("Diffuse Roughness"));
+  const float eta = layer_index(ior, std::max(a.number(SpecularLevel), 0.0f));
+  Lobe diffuse = rough_diffuse(weight * base, base, a.fraction(DiffuseRoughness));
   if (eta != 1.0f) {
-    const Lobe layer = specular_lobe(Rgb(weight), eta, facets.alpha, facets.multiscatter);
-    out.lobes.push_back(layer);
+    const Lobe layer = specular_lobe(Rgb(weight), eta, width, a.multiscatter());
+    add_lobe(a, layer, out);
     diffuse = below(diffuse, layer);
   }
-  out.lobes.push_back(diffuse);
-  return out;
+  add_lobe(a, diffuse, out);
 }
+
+void check(const NodeReader& node) {
+  check_distribution(node, "MULTI_GGX");
+  check_neutral(node, "Subsurface Weight", 0.0f,
+                "subsurface scattering is not supported yet; diffuse is used");
+  check_neutral(node, "Coat Weight", 0.0f, "coat is not supported yet; it is left out");
+  check_neutral(node, "Sheen Weight", 0.0f, "sheen is not supported yet; it is left out");
+  check_neutral(node, "Anisotropic", 0.0f, "anisotropy is not supported yet; 0 is used");
+  check_neutral(node, "Specular Tint", 1.0f, "specular tint is not supported yet; white is used");
+  check_thin_film(node);
+}
+}  // namespace principled
 
 }  // namespace
 
-Closures make_closures(const NodeReader& node, NodeOp op, float share) {
-  Closures out;
-  node.unlinked("Normal");
-  switch (op) {
-    case NodeOp::Diffuse: {
-      const Rgb color = node.positive_color("Color");
-      out.lobes.push_back(rough_diffuse(share * color, color, node.number("Roughness")));
-      break;
-    }
-    case NodeOp::Glossy:
-      out.lobes.push_back(glossy(node, share));
-      break;
-    case NodeOp::Glass:
-      out.lobes.push_back(glass(node, share));
-      break;
-    case NodeOp::Refraction: {
-      const Distribution facets = distribution(node, "BECKMANN");
-      out.lobes.push_back(refraction_lobe(share * node.positive_color("Color"),
-                                          index_of_refraction(node), facets.alpha));
-      break;
-    }
-    case NodeOp::Translucent:
-      out.lobes.push_back(translucent_lobe(share * node.positive_color("Color")));
-      break;
-    case NodeOp::Transparent:
-      out.transparency = share * node.positive_color("Color");
-      break;
-    case NodeOp::Emission:
-      out.emission = share * node.positive_color("Color") * std::max(node.number("Strength"), 0.0f);
-      break;
-    case NodeOp::Principled:
-      return principled(node, share);
-    case NodeOp::MixShader:
-    case NodeOp::AddShader:
-      break;
-  }
-  return out;
-}
+const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
+    kGlossyClosure{&glossy::add, {.lobes = 1}, &glossy::check},
+    kGlassClosure{&glass::add, {.transmits = true, .lobes = 1}, &glass::check},
+    kRefractionClosure{&refraction::add, {.transmits = true, .lobes = 1}, &refraction::check},
+    kTranslucentClosure{&translucent::add, {.transmits = true, .lobes = 1}},
+    kTransparentClosure{&transparent::add, {.transparent = true}},
+    kEmissionClosure{&emission::add, {.emits = true}},
+    kPrincipledClosure{&principled::add,
+                       {.emits = true,
+                        .transparent = true,
+                        .transmits = true,
+                        .lobes = 4,
+                        .emission = {principled::EmissionStrength, 0.0f},
+                        .alpha = {principled::Alpha, 1.0f},
+                        .transmission = {principled::Transmission, 0.0f},
+                        .parts = {{principled::Metallic, 0.0f}, {principled::Transmission, 0.0f}}},
+                       &principled::check};
+
+const std::span<const SocketDecl> kDiffuseInputs(diffuse::kInputs), kGlossyInputs(glossy::kInputs),
+    kGlassInputs(glass::kInputs), kRefractionInputs(refraction::kInputs),
+    kTranslucentInputs(translucent::kInputs), kTransparentInputs(transparent::kInputs),
+    kEmissionInputs(emission::kInputs), kPrincipledInputs(principled::kInputs);
 
 }  // namespace janus

@@ -3,42 +3,46 @@
 
 #include <algorithm>
 
-#include "janus/shading/closures.h"
+#include "janus/shading/graph_compiler.h"
 
 namespace janus {
 
 namespace {
 
-// Walks the closure tree from the output and collects closures with their shares.
-class Compiler {
+constexpr Operation kShareOfSecond =
+    pure<[](float share, float factor) { return share * glm::clamp(factor, 0.0f, 1.0f); }>;
+constexpr Operation kShareOfFirst =
+    pure<[](float share, float factor) { return share * (1.0f - glm::clamp(factor, 0.0f, 1.0f)); }>;
+
+// Walks the tree of closures from the output: each closure gets its share of Mix and Add.
+class ClosureTree {
  public:
-  Compiler(const NodeGraph& graph, const std::string& material, Diagnostics& diagnostics)
-      : graph_(graph), material_(material), diagnostics_(diagnostics) {}
+  ClosureTree(const NodeGraph& graph, const std::string& material, const ImageMap& images,
+              Diagnostics& diagnostics)
+      : graph_(graph),
+        material_(material),
+        diagnostics_(diagnostics),
+        compiler_(graph, material, images, diagnostics) {}
 
   Program compile() {
     if (graph_.surface) {
-      closure(*graph_.surface, 1.0f);
+      closure(*graph_.surface, compiler_.constant(vec3(1.0f), SocketType::Float));
     }
-    finish(program_);
-    return std::move(program_);
-  }
-
-  static void finish(Program& program) {
-    Bsdf bsdf;
-    for (const Lobe& lobe : program.lobes) {
-      bsdf.add(lobe);
-    }
-    bsdf.finish();
-    program.lobes.assign(bsdf.lobes().begin(), bsdf.lobes().end());
+    return compiler_.finish();
   }
 
  private:
   // Shared branches are walked once for each way to them; this bounds what a hostile tree costs.
   static constexpr int kMaxVisits = 4096;
 
-  void closure(const NodeLink& link, float share) {
+  bool is_zero(Value share) const {
+    const vec3* x = compiler_.as_constant(share);
+    return x && x->x == 0.0f;
+  }
+
+  void closure(const NodeLink& link, Value share) {
     const Node* node = graph_.find(link.node);
-    if (!node || share == 0.0f) {
+    if (!node || is_zero(share)) {
       return;
     }
     // Blender refuses cycles; a description written by hand may hold one.
@@ -58,63 +62,55 @@ class Compiler {
     path_.pop_back();
   }
 
-  void add_node(const Node& node, float share) {
+  void add_node(const Node& node, Value share) {
     const NodeDecl* decl = find_node_type(node.type);
-    if (!decl) {
+    if (!decl || (!decl->closure && decl->mix == MixOp::None)) {
       warn(diagnostics_, material_, node,
            "the node type " + node.type + " is not supported yet; it is rendered black");
       return;
     }
     const NodeReader reader(node, *decl, material_, diagnostics_);
-    switch (decl->op) {
-      case NodeOp::MixShader: {
-        const float factor = reader.fraction("Fac");
-        child(reader, "Shader", share * (1.0f - factor));
-        child(reader, "Shader_001", share * factor);
+    switch (decl->mix) {
+      case MixOp::Mix: {
+        compiler_.require(node, 0);
+        const Value factor = compiler_.input(reader, "Fac", 0);
+        child(reader, "Shader", compiler_.emit(kShareOfFirst, {share, factor}, 0, 0));
+        child(reader, "Shader_001", compiler_.emit(kShareOfSecond, {share, factor}, 0, 0));
         break;
       }
-      case NodeOp::AddShader:
+      case MixOp::Add:
         child(reader, "Shader", share);
         child(reader, "Shader_001", share);
         break;
-      default:
-        add(reader, make_closures(reader, decl->op, share));
+      case MixOp::None:
+        compiler_.closure(reader, share);
     }
   }
 
-  void child(const NodeReader& reader, std::string_view identifier, float share) {
-    if (const NodeLink* link = reader.closure(identifier)) {
+  void child(const NodeReader& reader, std::string_view identifier, Value share) {
+    if (const NodeLink* link = reader.link(identifier)) {
       closure(*link, share);
-    }
-  }
-
-  void add(const NodeReader& reader, const Closures& closures) {
-    program_.emission += closures.emission;
-    program_.transparency += closures.transparency;
-    for (const Lobe& lobe : closures.lobes) {
-      if (is_black(lobe.weight)) {
-        continue;
-      }
-      if (program_.lobes.size() == kMaxLobes) {
-        reader.warn("more than " + std::to_string(kMaxLobes) + " closures; this one is left out");
-        return;
-      }
-      program_.lobes.push_back(lobe);
     }
   }
 
   const NodeGraph& graph_;
   const std::string& material_;
   Diagnostics& diagnostics_;
-  Program program_;
+  GraphCompiler compiler_;
   std::vector<const Node*> path_;  // from the output to the node at hand
   int visits_ = 0;
 };
 
 }  // namespace
 
-Program compile(const NodeGraph& graph, const std::string& material, Diagnostics& diagnostics) {
-  return Compiler(graph, material, diagnostics).compile();
+Program compile(const NodeGraph& graph, const std::string& material, const ImageMap& images,
+                Diagnostics& diagnostics) {
+  return ClosureTree(graph, material, images, diagnostics).compile();
+}
+
+std::vector<std::string> required_attributes(const NodeGraph& graph) {
+  Diagnostics ignored;
+  return compile(graph, "", {}, ignored).attributes;
 }
 
 Program default_surface() {

@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
+#include "janus/scene/description.h"
 #include "janus/scene/diagnostics.h"
 #include "janus/scene/node_graph.h"
 #include "janus/shading/program.h"
 
 namespace janus {
 
+using ImageMap = std::map<std::string, ImageDesc>;
+
 // Compiles a flattened node graph. Never fails: what it cannot do becomes a Diagnostic that names
 // `material` and the node, and the nearest closure or the socket's constant is used instead.
-Program compile(const NodeGraph& graph, const std::string& material, Diagnostics& diagnostics);
+Program compile(const NodeGraph& graph, const std::string& material, const ImageMap& images,
+                Diagnostics& diagnostics);
+
+// The keys of the mesh attributes that the program of a graph reads: see node_emitter.h.
+std::vector<std::string> required_attributes(const NodeGraph& graph);
 
 // Cycles' surface for a face without a material: diffuse 0.8.
 Program default_surface();

@@ -5,6 +5,16 @@
 
 namespace janus {
 
+namespace {
+
+template <class T>
+const T* property_as(const Node& node, std::string_view identifier) {
+  const auto it = node.properties.find(std::string(identifier));
+  return it == node.properties.end() ? nullptr : std::get_if<T>(&it->second);
+}
+
+}  // namespace
+
 void warn(Diagnostics& diagnostics, const std::string& material, const Node& node,
           const std::string& message) {
   Diagnostic diagnostic{Severity::Warning, "", material, node.name, message};
@@ -22,54 +32,70 @@ const NodeInput* NodeReader::input(std::string_view identifier) const {
   return it == node_.inputs.end() ? nullptr : &it->second;
 }
 
-float NodeReader::declared_default(std::string_view identifier) const {
-  for (const SocketDecl& socket : decl_.inputs) {
-    if (socket.identifier == identifier) {
-      return socket.default_value;
-    }
-  }
-  return 0.0f;
-}
-
-Rgb NodeReader::color(std::string_view identifier) const {
-  const Rgb fallback(declared_default(identifier));
+std::optional<vec4> NodeReader::value(std::string_view identifier) const {
   const NodeInput* value = input(identifier);
   if (!value) {
+    return std::nullopt;
+  }
+  if (const auto* c = std::get_if<vec4>(value)) {
+    return *c;
+  }
+  if (const auto* v = std::get_if<vec3>(value)) {
+    return vec4(*v, 1.0f);
+  }
+  if (const auto* f = std::get_if<float>(value)) {
+    return vec4(*f, *f, *f, 1.0f);
+  }
+  return std::nullopt;
+}
+
+bool NodeReader::is_number(std::string_view identifier) const {
+  const NodeInput* value = input(identifier);
+  return value && std::get_if<float>(value);
+}
+
+vec3 NodeReader::color(std::string_view identifier) const {
+  const auto socket = std::find_if(decl_.inputs.begin(), decl_.inputs.end(),
+                                   [&](const SocketDecl& s) { return s.identifier == identifier; });
+  const vec3 fallback = socket == decl_.inputs.end() ? vec3(0.0f) : socket->value;
+  const auto constant = value(identifier);
+  if (!constant) {
     return fallback;
   }
-  Rgb out = fallback;
-  if (const auto* c = std::get_if<vec4>(value)) {
-    out = Rgb(*c);
-  } else if (const auto* v = std::get_if<vec3>(value)) {
-    out = *v;
-  } else if (const auto* f = std::get_if<float>(value)) {
-    out = Rgb(*f);
-  } else if (const auto* link = std::get_if<NodeLink>(value)) {
-    warn("the input '" + std::string(identifier) + "' is linked to '" + link->node +
-         "', which is not supported yet; its default is used");
-  }
-  if (!is_finite(out)) {
+  if (!is_finite(vec3(*constant))) {
     warn("an input is not a finite number; its default is used");
     return fallback;
   }
-  return out;
+  return *constant;
 }
 
-const NodeLink* NodeReader::closure(std::string_view identifier) const {
+const NodeLink* NodeReader::link(std::string_view identifier) const {
   const NodeInput* value = input(identifier);
   return value ? std::get_if<NodeLink>(value) : nullptr;
 }
 
+bool NodeReader::omitted(std::string_view identifier) const {
+  const NodeInput* value = input(identifier);
+  return !value || std::holds_alternative<std::monostate>(*value);
+}
+
 std::string NodeReader::property(std::string_view identifier, std::string_view fallback) const {
-  const auto it = node_.properties.find(std::string(identifier));
-  const auto* text = it == node_.properties.end() ? nullptr : std::get_if<std::string>(&it->second);
+  const auto* text = property_as<std::string>(node_, identifier);
   return text ? *text : std::string(fallback);
 }
 
-void NodeReader::unlinked(std::string_view identifier) const {
-  if (closure(identifier)) {
-    color(identifier);
-  }
+bool NodeReader::flag(std::string_view identifier) const {
+  const auto* value = property_as<bool>(node_, identifier);
+  return value && *value;
+}
+
+float NodeReader::number_property(std::string_view identifier) const {
+  const auto* value = property_as<float>(node_, identifier);
+  return value && std::isfinite(*value) ? *value : 0.0f;
+}
+
+const std::vector<float>* NodeReader::list(std::string_view identifier) const {
+  return property_as<std::vector<float>>(node_, identifier);
 }
 
 }  // namespace janus

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "janus/scene/diagnostics.h"
 #include "janus/scene/node_graph.h"
@@ -17,28 +19,28 @@ class NodeReader {
              Diagnostics& diagnostics)
       : node_(node), decl_(decl), material_(material), diagnostics_(diagnostics) {}
 
-  // The constant value of an input; where it is linked, not finite or omitted, its declared
-  // default.
-  Rgb color(std::string_view identifier) const;
-  float number(std::string_view identifier) const { return color(identifier).x; }
-  // The value clamped from below, or to [0, 1].
-  Rgb positive_color(std::string_view identifier) const {
-    return glm::max(color(identifier), Rgb(0.0f));
-  }
-  float fraction(std::string_view identifier) const {
-    return glm::clamp(number(identifier), 0.0f, 1.0f);
-  }
-  // What is linked to a closure input; nullptr: nothing.
-  const NodeLink* closure(std::string_view identifier) const;
-  std::string property(std::string_view identifier, std::string_view fallback) const;
+  const Node& node() const { return node_; }
+  const NodeDecl& decl() const { return decl_; }
 
-  // Says that an input without a constant, such as Normal, is linked.
-  void unlinked(std::string_view identifier) const;
+  // The constant of an input; where it is linked, not finite or omitted, its declared default.
+  vec3 color(std::string_view identifier) const;
+  float number(std::string_view identifier) const { return color(identifier).x; }
+  // The constant as it is written; nullopt: a link, omitted, or no number.
+  std::optional<vec4> value(std::string_view identifier) const;
+  bool is_number(std::string_view identifier) const;  // one float, no vector
+  // What is linked to an input; nullptr: nothing.
+  const NodeLink* link(std::string_view identifier) const;
+  // Neither a link nor a value.
+  bool omitted(std::string_view identifier) const;
+
+  std::string property(std::string_view identifier, std::string_view fallback) const;
+  bool flag(std::string_view identifier) const;
+  float number_property(std::string_view identifier) const;           // 0: there is none
+  const std::vector<float>* list(std::string_view identifier) const;  // nullptr: there is none
   void warn(const std::string& message) const;
 
  private:
   const NodeInput* input(std::string_view identifier) const;
-  float declared_default(std::string_view identifier) const;
 
   const Node& node_;
   const NodeDecl& decl_;

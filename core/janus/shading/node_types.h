@@ -7,34 +7,80 @@
 #include <span>
 #include <string_view>
 
+#include "janus/math/vec.h"
+
 namespace janus {
+
+class ClosureArguments;
+class NodeEmitter;
+class NodeReader;
+struct ShadingResult;
 
 enum class SocketType { Float, Vector, Color, Closure };
 
-enum class NodeOp {
-  Diffuse,
-  Glossy,
-  Glass,
-  Refraction,
-  Translucent,
-  Transparent,
-  Emission,
-  Principled,
-  MixShader,
-  AddShader,
+// Does a value of the type take three numbers?
+constexpr bool is_vector(SocketType type) { return type != SocketType::Float; }
+
+// What an input without a link and without a value gets.
+enum class Implicit {
+  Value,      // the default of the declaration
+  Normal,     // the shading normal, on the viewer's side
+  Generated,  // texture coordinates over the object's box
+  Uv,         // the active UV map
+  Position,
+  Tangent,
 };
 
 struct SocketDecl {
   std::string_view identifier;
   SocketType type;
-  float default_value;  // of every component, when the graph omits the input
+  vec3 value = vec3(0.0f);  // when the graph omits the input
+  Implicit implicit = Implicit::Value;
+  // Bump compares its height here with that at two points beside.
+  bool shifted = false;
+
+  constexpr SocketDecl(std::string_view id, SocketType t, float x = 0.0f)
+      : identifier(id), type(t), value(x) {}
+  constexpr SocketDecl(std::string_view id, SocketType t, vec3 v)
+      : identifier(id), type(t), value(v) {}
+  constexpr SocketDecl(std::string_view id, SocketType t, Implicit i)
+      : identifier(id), type(t), implicit(i) {}
+  constexpr SocketDecl(std::string_view id, SocketType t, float x, bool at_shifted_points)
+      : identifier(id), type(t), value(x), shifted(at_shifted_points) {}
 };
+
+// What a closure can add to a surface, besides lobes.
+struct ClosureTraits {
+  // An input, by its position, and the value at which what it stands for is not there.
+  struct Input {
+    int index = -1;
+    float neutral = 0.0f;
+  };
+  bool emits = false, transparent = false, transmits = false;
+  int lobes = 0;  // at most
+  // Which may make it dark, opaque or reflecting after all.
+  Input emission, alpha, transmission;
+  Input parts[2];  // each with a lobe
+};
+
+// A closure node: adds to a result what its parameters say; `check` names what it leaves out, where
+// that can be seen from the graph.
+struct ClosureDecl {
+  void (*add)(const ClosureArguments&, ShadingResult&);
+  ClosureTraits traits;
+  void (*check)(const NodeReader&) = nullptr;
+};
+
+enum class MixOp { None, Mix, Add };  // of closures
 
 struct NodeDecl {
   std::string_view type;  // Blender's node.type
-  NodeOp op;
   std::span<const SocketDecl> inputs;
-  std::string_view output;
+  std::span<const std::string_view> outputs;
+  // One of the three:
+  void (*emit)(NodeEmitter&) = nullptr;  // a node of values
+  const ClosureDecl* closure = nullptr;
+  MixOp mix = MixOp::None;
 };
 
 std::span<const NodeDecl> node_types();

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A compiled node graph: what is constant has become lobes, the rest is a list of instructions over
+// registers, and closures that read their parameters from registers.
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "janus/image/texture.h"
 #include "janus/math/vec.h"
 #include "janus/shading/bsdf.h"
+#include "janus/shading/shading_point.h"
 
 namespace janus {
 
@@ -17,24 +24,71 @@ struct ShadingResult {
   Rgb transparency = Rgb(0.0f);
 };
 
-// A compiled node graph. Its inputs are constants, so what is left of the graph is its lobes;
-// run() places them on the surface.
+class Program;
+struct Instruction;
+
+inline constexpr int kMaxRegisters = 2048;
+
+// The state of a run. Registers hold one float; a vector or colour takes three in a row.
+struct RunState {
+  float* registers;
+  const ShadingPoint* points;  // the point, and for bump two more beside it
+  const Program& program;
+};
+using Kernel = void (*)(RunState&, const Instruction&);
+
+struct Instruction {
+  Kernel kernel;
+  uint32_t operands;  // first index in Program::operands
+  uint32_t data;      // the kernel's: an attribute slot, a table, an image, a mode
+  uint16_t out;       // register
+  uint16_t at;        // index of the point that it reads
+};
+
+struct Closure;
+
+// What a run depends on beside the point of the surface.
+enum class Dependence : uint8_t {
+  None,
+  Side,  // the side of Ng that is looked at
+  View,  // the direction
+};
+
 class Program {
  public:
+  // --- What does not vary over the surface.
   std::vector<Lobe> lobes;  // with selection probabilities, without normals; at most kMaxLobes
   Rgb emission = Rgb(0.0f);
   Rgb transparency = Rgb(0.0f);
   bool sample_emission = true;  // MaterialDesc::sample_emission
 
-  bool has_transparency() const { return !is_black(transparency); }
+  // --- What does.
+  std::vector<float> constants;  // the first registers
+  std::vector<uint16_t> operands;
+  std::vector<Instruction> instructions;
+  std::vector<Closure> closures;
+  std::vector<std::vector<float>> tables;  // of ramps and curves
+  std::vector<std::shared_ptr<const Texture>> textures;
+  std::vector<std::string> attributes;  // keys, by slot
+  uint16_t registers = 0;
+  bool varying_emission = false, varying_transparency = false;
+  bool shifted = false;   // some instruction reads the points beside the point
+  bool tangents = false;  // some attribute is a tangent
+  Dependence dependence = Dependence::None;
+  bool transmits = false;  // some closure scatters to the other side, or may
 
-  // `normal`: shading normal on the front side, unit.
-  ShadingResult run(vec3 normal) const {
-    ShadingResult result;
-    run(normal, result);
-    return result;
-  }
-  void run(vec3 normal, ShadingResult& result) const {
+  Program();
+  ~Program();
+  Program(Program&&) noexcept;
+  Program& operator=(Program&&) noexcept;
+
+  // Is all of it the same everywhere?
+  bool constant() const { return closures.empty(); }
+  bool has_transparency() const { return varying_transparency || !is_black(transparency); }
+  bool emits() const { return varying_emission || !is_black(emission); }
+
+  // Of a constant program. `normal`: shading normal on the front side, unit.
+  void place(vec3 normal, ShadingResult& result) const {
     result.bsdf.clear();
     for (Lobe lobe : lobes) {
       lobe.normal = normal;
@@ -43,6 +97,14 @@ class Program {
     result.emission = emission;
     result.transparency = transparency;
   }
+
+  void run(const ShadingPoint& point, ShadingResult& result) const;
+};
+
+// A point whose program depends on the view, to be run again for another one.
+struct Reshading {
+  const Program* program = nullptr;  // null: it does not depend on the view
+  ShadingPoint point;
 };
 
 }  // namespace janus

@@ -112,6 +112,8 @@ class SceneBuilder:
         vertex_normals: npt.ArrayLike | None = None,
         corner_normals: npt.ArrayLike | None = None,
         material_indices: npt.ArrayLike | None = None,
+        faces: npt.ArrayLike | None = None,
+        attributes: Sequence[Mapping[str, Any]] = ...,
     ) -> None:
         """A mesh in object space.
 
@@ -119,22 +121,43 @@ class SceneBuilder:
         the position of each corner (None: the corners are the positions). Smooth shading:
         vertex_normals float[N, 3] or corner_normals float[C, 3], need not be unit.
         material_indices: int[M], the material slot of each triangle (None: slot 0).
+        faces: int[M], the face of each triangle (None: each is one). attributes: for shaders, each
+        with "key" (see set_material()), "domain" (MESH, POINT, CORNER or FACE) and "values",
+        float[N] or float[N, 1 to 4].
         """
     def set_material(
-        self, key: str, *, name: str, graph: Mapping[str, Any], sample_emission: bool = True
-    ) -> None:
+        self,
+        key: str,
+        *,
+        name: str,
+        graph: Mapping[str, Any],
+        sample_emission: bool = True,
+        material_index: float = 0.0,
+    ) -> list[str]:
         """A surface, as a flattened node tree:
 
         {"nodes": [{"name", "type", "inputs": {identifier: value}, "properties": {identifier:
         value}}], "surface": {"link": [node, output]} or None}. The value of an input is None, a
         number, 3 or 4 numbers, a string, or a link. Types and identifiers are Blender's; see
         node_types(). sample_emission False: what it emits is found by chance only.
+
+        Returns the keys of the mesh attributes that it reads: "generated", "color:", "uv:NAME",
+        "tangent:NAME" (without a name the active one), "attribute:NAME".
         """
-    def set_image(self, key: str, *, name: str, pixels: npt.ArrayLike, srgb: bool = False) -> None:
+    def set_image(
+        self,
+        key: str,
+        *,
+        name: str,
+        pixels: npt.ArrayLike,
+        srgb: bool = False,
+        associated: bool = False,
+    ) -> None:
         """A picture for texture nodes, which name it by their property "image": this key.
 
         pixels: float[H, W, 3 or 4], the bottom row first, scene-linear Rec.709; with srgb encoded
-        as sRGB, and decoded after interpolation, as in Cycles.
+        as sRGB, and decoded after interpolation, as in Cycles. associated: colours have been
+        multiplied by alpha.
         """
     def set_instance(
         self,
@@ -149,6 +172,9 @@ class SceneBuilder:
         visible_glossy: bool = True,
         visible_transmission: bool = True,
         visible_shadow: bool = True,
+        color: Sequence[float] = (1.0, 1.0, 1.0, 1.0),
+        object_index: float = 0.0,
+        random: float = 0.0,
     ) -> None:
         """Places the mesh with the key `mesh` in the world.
 
@@ -222,6 +248,7 @@ class SceneBuilder:
         aperture_blades: int = 0,
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
+        pixel_size: float = 0.0,
     ) -> None:
         """A camera that looks along its -z, with +y up.
 
@@ -381,4 +408,4 @@ def build_info() -> dict[str, Any]:
 
 def node_types() -> list[dict[str, Any]]:
     """The shader nodes that the core knows: type (Blender's node.type), inputs (dicts with
-    identifier, type, default) and output."""
+    identifier, type, default of three numbers) and outputs (identifiers)."""

@@ -24,7 +24,7 @@ from . import Error, IoError, RenderSettings, Scene, SceneBuilder, __version__
 __all__ = ["CapturingBuilder", "load"]
 
 FORMAT = "janus scene"
-VERSION = 2  # raised when an older reader could not understand a newer file
+VERSION = 3  # raised when an older reader could not understand a newer file
 
 _KINDS = (
     "mesh",
@@ -41,6 +41,7 @@ _ARRAYS = {
         "vertex_normals",
         "corner_normals",
         "material_indices",
+        "faces",
     ),
     "image": ("pixels",),
 }
@@ -64,9 +65,9 @@ class CapturingBuilder:
         """As SceneBuilder.set_mesh."""
         self._set("mesh", key, arguments)
 
-    def set_material(self, key: str, **arguments: Any) -> None:
+    def set_material(self, key: str, **arguments: Any) -> list[str]:
         """As SceneBuilder.set_material."""
-        self._set("material", key, arguments)
+        return self._set("material", key, arguments)
 
     def set_image(self, key: str, **arguments: Any) -> None:
         """As SceneBuilder.set_image."""
@@ -117,9 +118,10 @@ class CapturingBuilder:
         except (OSError, ValueError, TypeError) as error:
             raise IoError(f"cannot write {os.fspath(path)}: {_reason(error)}") from error
 
-    def _set(self, kind: str, key: str, arguments: dict[str, Any]) -> None:
-        getattr(self._builder, f"set_{kind}")(key, **arguments)
+    def _set(self, kind: str, key: str, arguments: dict[str, Any]) -> Any:
+        result = getattr(self._builder, f"set_{kind}")(key, **arguments)
         self._items[kind][key] = _own(arguments)
+        return result
 
     def _describe(self) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
         """(what goes into scene.json, the arrays beside it)."""
@@ -140,6 +142,13 @@ class CapturingBuilder:
                         arrays[member] = np.asarray(item[name])
                 rest = {name: value for name, value in item.items() if name not in members}
                 members = {name: member for name, member in members.items() if member in arrays}
+                if "attributes" in rest:
+                    rest["attributes"] = [
+                        attribute | {"values": f"{kind}/{number}/attributes/{i}"}
+                        for i, attribute in enumerate(rest["attributes"])
+                    ]
+                    for attribute, own in zip(rest["attributes"], item["attributes"], strict=True):
+                        arrays[attribute["values"]] = np.asarray(own["values"])
                 description[kind][key] = {**rest, "arrays": members}
         for kind in ("material", "light"):
             description[kind] = self._items[kind]
@@ -204,6 +213,8 @@ def _build(
         for key, item in description.get(kind, {}).items():
             arrays = {name: _array(archive, member) for name, member in item.pop("arrays").items()}
             optional = {name: None for name in _ARRAYS[kind][2:]}
+            for attribute in item.get("attributes", ()):
+                attribute["values"] = _array(archive, attribute["values"])
             getattr(builder, f"set_{kind}")(key, **optional | item | arrays)
     for kind in ("material", "light"):
         for key, item in description[kind].items():

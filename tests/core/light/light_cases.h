@@ -192,8 +192,8 @@ inline std::optional<LightHit> hit_light(const Scene& scene, const Ray& ray) {
   if (surface) {
     size_t index;
     const MeshLight* mesh = scene.mesh_light(*surface, index);
-    return mesh ? std::optional(
-                      mesh->at(*surface, ray.origin, ray.direction, scene.shade(*surface).emission))
+    return mesh ? std::optional(mesh->at(*surface, ray.origin, ray.direction,
+                                         scene.shade(*surface, -ray.direction).emission))
                 : std::nullopt;
   }
   return light.intersect(ray);

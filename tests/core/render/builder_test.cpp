@@ -171,7 +171,7 @@ TEST(Builder, SlotsPickMaterials) {
   const auto scene = kit.build();
   const auto emitted = [&](float x, float y) {
     const auto hit = scene->intersect(Ray{vec3(x, y, 1), vec3(0, 0, -1)});
-    return scene->shade(*hit).emission.x;
+    return scene->shade(*hit, hit->ng).emission.x;
   };
   EXPECT_EQ(emitted(0.5f, -0.5f), 0.0f);
   EXPECT_EQ(emitted(-0.5f, 0.5f), 2.0f);

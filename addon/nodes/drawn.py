@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings that a node keeps behind pointers: ramps, curves, a direction, an object."""
+
+TABLE_SIZE = 256  # as many as Cycles samples
+
+
+def drawn_properties(node) -> dict:
+    """The node's drawn settings as plain data; empty for most nodes."""
+    reader = READERS.get(node.type)
+    return reader(node) if reader else {}
+
+
+def _ramp(node) -> dict:
+    ramp = node.color_ramp
+    table = [c for i in range(TABLE_SIZE) for c in ramp.evaluate(i / (TABLE_SIZE - 1))]
+    return {"table": table, "interpolation": ramp.interpolation}
+
+
+def _curves(node) -> dict:
+    mapping = node.mapping
+    mapping.initialize()
+    curves = list(mapping.curves)
+    first = min(curve.points[0].location[0] for curve in curves)
+    last = max(curve.points[-1].location[0] for curve in curves)
+
+    def evaluate(curve, x):
+        return mapping.evaluate(curve, x)
+
+    table = []
+    for i in range(TABLE_SIZE):
+        x = first + i / (TABLE_SIZE - 1) * (last - first)
+        if node.type == "CURVE_RGB":  # the combined curve comes first
+            x = evaluate(curves[3], x)
+        table += [evaluate(curve, x) for curve in curves[:3]]
+    return {"table": table, "range": [first, last], "extend": mapping.extend}
+
+
+def _direction(node) -> dict:
+    return {"direction": list(node.outputs["Normal"].default_value)}
+
+
+def _other_object(node) -> dict:
+    if node.object is None:
+        return {}
+    matrix = node.object.matrix_world.inverted_safe()
+    return {"object_matrix": [x for row in matrix for x in row]}
+
+
+READERS = {
+    "VALTORGB": _ramp,
+    "CURVE_RGB": _curves,
+    "CURVE_VEC": _curves,
+    "CURVE_FLOAT": _curves,
+    "NORMAL": _direction,
+    "TEX_COORD": _other_object,
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/geometry/surfaces.h"
+
+#include <algorithm>
+
+namespace janus {
+
+namespace {
+
+// Cycles' bump looks a tenth of a pixel to the side (its Filter Width).
+constexpr float kBumpFilter = 0.1f;
+
+}  // namespace
+
+uint32_t Surfaces::add_program(Program program, float material_index) {
+  any_delta_ = any_delta_ || !program.constant() ||
+               std::any_of(program.lobes.begin(), program.lobes.end(), is_delta);
+  programs_.push_back(std::make_unique<const Program>(std::move(program)));
+  surfaces_.push_back({programs_.back().get(), nullptr, material_index});
+  return static_cast<uint32_t>(surfaces_.size() - 1);
+}
+
+uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh) {
+  const Program& program = *surfaces_[surface].program;
+  if (program.attributes.empty()) {
+    return surface;
+  }
+  const auto [entry, fresh] = bound_.try_emplace({surface, &mesh}, 0);
+  if (fresh) {
+    auto slots = std::make_unique<const AttributeDesc*[]>(program.attributes.size());
+    std::transform(program.attributes.begin(), program.attributes.end(), slots.get(),
+                   [&](const std::string& key) { return mesh.attribute(key); });
+    entry->second = static_cast<uint32_t>(surfaces_.size());
+    surfaces_.push_back({&program, slots.get(), surfaces_[surface].material_index});
+    attributes_.push_back(std::move(slots));
+  }
+  return entry->second;
+}
+
+void Surfaces::set_objects(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
+                           const mat4& to_camera, const PixelFootprint& footprint) {
+  footprint_ = footprint;
+  const bool needed = std::any_of(programs_.begin(), programs_.end(),
+                                  [](const auto& program) { return !program->constant(); });
+  if (!needed) {
+    return;
+  }
+  const mat4 from_camera = glm::inverse(to_camera);
+  for (const Instance& instance : instances) {
+    ObjectData data;
+    data.to_world = instance.to_world;
+    data.to_object = glm::inverse(instance.to_world);
+    data.normal_to_world = instance.normal_to_world;
+    data.to_camera = to_camera;
+    data.from_camera = from_camera;
+    data.location = vec3(instance.to_world[3]);
+    data.color = instance.color;
+    data.object_index = instance.object_index;
+    data.random = instance.random;
+    objects_.push_back(data);
+    meshes_.push_back(&meshes[instance.mesh]);
+  }
+}
+
+ShadingPoint Surfaces::point(const SurfaceInteraction& hit, vec3 view) const {
+  const Surface& surface = surfaces_[hit.material];
+  const Mesh& mesh = *meshes_[hit.instance];
+  ShadingPoint point;
+  point.p = hit.p;
+  point.ng = hit.ng;
+  point.ns = hit.ns;
+  point.view = view;
+  point.barycentric = hit.barycentric;
+  point.triangle = mesh.indices(hit.primitive);
+  point.object = &objects_[hit.instance];
+  point.attributes = surface.attributes;
+  point.material_index = surface.material_index;
+  if (surface.program->shifted) {
+    const mat3 linear(point.object->to_world);
+    const auto vertex = [&](int k) { return mesh.positions()[point.triangle.vertices[k]]; };
+    point.edge_u = linear * (vertex(1) - vertex(0));
+    point.edge_v = linear * (vertex(2) - vertex(0));
+    point.footprint =
+        kBumpFilter * (footprint_.width + footprint_.angle * glm::length(hit.p - footprint_.eye));
+  }
+  if (surface.program->tangents) {
+    point.object_normal = mesh.interpolated_normal(hit.primitive, hit.barycentric);
+  }
+  return point;
+}
+
+}  // namespace janus

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From a hit to what the surface does there: runs the programs of the scene's materials.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "janus/geometry/interaction.h"
+#include "janus/geometry/mesh.h"
+#include "janus/shading/program.h"
+
+namespace janus {
+
+// How far apart the samples of a picture are where they meet a surface: Cycles' bump looks as far.
+struct PixelFootprint {
+  vec3 eye = vec3(0.0f);
+  float angle = 0.0f;  // metres per metre of distance to the eye
+  float width = 0.0f;  // and metres at any distance
+};
+
+class Surfaces {
+ public:
+  // A program and its material's pass index; its number.
+  uint32_t add_program(Program program, float material_index = 0.0f);
+  const Program& program(uint32_t surface) const { return *surfaces_[surface].program; }
+  // Programs, the default surface included.
+  size_t size() const { return programs_.size(); }
+  // Can some surface reflect or refract without blur?
+  bool any_delta() const { return any_delta_; }
+  // The number of a program's surface on a mesh, which has attributes for it or not. The mesh must
+  // not move from then on.
+  uint32_t bind(uint32_t program, const Mesh& mesh);
+
+  // The instances that hits speak of, in their order; `to_camera` looks along +z.
+  void set_objects(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
+                   const mat4& to_camera, const PixelFootprint& footprint);
+
+  // Shades a hit that is seen from the unit direction `view`.
+  void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result) const {
+    const Program& program = *surfaces_[hit.material].program;
+    if (program.constant()) {
+      program.place(hit.ns, result);
+    } else {
+      program.run(point(hit, view), result);
+    }
+  }
+  // And keeps what another view needs.
+  void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result,
+             Reshading& reshading) const {
+    const Program& program = *surfaces_[hit.material].program;
+    if (program.dependence == Dependence::None) {
+      reshading.program = nullptr;
+      shade(hit, view, result);
+    } else {
+      reshading.program = &program;
+      reshading.point = point(hit, view);
+      program.run(reshading.point, result);
+    }
+  }
+  ShadingPoint point(const SurfaceInteraction& hit, vec3 view) const;
+
+ private:
+  struct Surface {
+    const Program* program;
+    const AttributeDesc* const* attributes;
+    float material_index;
+  };
+  std::vector<std::unique_ptr<const Program>> programs_;
+  std::vector<Surface> surfaces_;  // those of add_program(), then those of bind()
+  std::vector<std::unique_ptr<const AttributeDesc*[]>> attributes_;
+  std::map<std::pair<uint32_t, const Mesh*>, uint32_t> bound_;
+  std::vector<ObjectData> objects_;
+  std::vector<const Mesh*> meshes_;  // by instance
+  PixelFootprint footprint_;
+  bool any_delta_ = false;
+};
+
+}  // namespace janus

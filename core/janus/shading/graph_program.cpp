@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The last steps of GraphCompiler: closures, and from values to registers.
+#include <algorithm>
+#include <set>
+
+#include "janus/shading/closures.h"
+#include "janus/shading/graph_compiler.h"
+
+namespace janus {
+
+// --- Closures ------------------------------------------------------------------------------------
+
+void GraphCompiler::closure(const NodeReader& reader, Value share) {
+  require(reader.node(), 0);
+  ClosureStep step{reader.decl().closure, share, {}, false, false, share};
+  step.multiscatter = reader.property("distribution", "MULTI_GGX") == "MULTI_GGX";
+  for (const SocketDecl& socket : reader.decl().inputs) {
+    if (socket.implicit == Implicit::Normal) {
+      step.operands.push_back(constant(vec3(0.0f), SocketType::Vector));
+      if (reader.link(socket.identifier)) {
+        step.has_normal = true;
+        step.normal = input(reader, socket.identifier, 0);
+      }
+    } else {
+      step.operands.push_back(input(reader, socket.identifier, 0));
+    }
+  }
+  const auto neutral = [&](const ClosureTraits::Input& input) {
+    const vec3* x = input.index < 0 ? nullptr : as_constant(step.operands[input.index]);
+    return x && x->x == input.neutral;
+  };
+  const ClosureTraits& traits = step.decl->traits;
+  program_.transmits |= traits.transmits && !neutral(traits.transmission);
+  if (step.decl->check) {
+    step.decl->check(reader);
+  }
+  const auto known = [&](Value v) { return as_constant(v) != nullptr; };
+  if (!step.has_normal && known(share) &&
+      std::all_of(step.operands.begin(), step.operands.end(), known)) {
+    add_constant(reader, step);
+    return;
+  }
+  program_.varying_emission |= traits.emits && !neutral(traits.emission);
+  program_.varying_transparency |= traits.transparent && !neutral(traits.alpha);
+  lobes_ += traits.lobes;
+  for (const ClosureTraits::Input& part : traits.parts) {
+    lobes_ -= neutral(part) ? 1 : 0;
+  }
+  say_if_full(reader);
+  closures_.push_back(std::move(step));
+}
+
+void GraphCompiler::add_constant(const NodeReader& reader, const ClosureStep& step) {
+  std::vector<float> registers;
+  std::vector<uint16_t> places;
+  const auto add = [&](Value value) {
+    const vec3 x = *as_constant(value);
+    registers.insert(registers.end(), {x.x, x.y, x.z});
+    return static_cast<uint16_t>(registers.size() - 3);
+  };
+  const Closure closure{step.decl, add(step.share), 0, Closure::kNoNormal, step.multiscatter};
+  for (const Value operand : step.operands) {
+    places.push_back(add(operand));
+  }
+  ShadingResult result;
+  step.decl->add({closure, registers.data(), places.data(), vec3(0, 0, 1)}, result);
+  program_.emission += result.emission;
+  program_.transparency += result.transparency;
+  for (const Lobe& lobe : result.bsdf.lobes()) {
+    ++lobes_;
+    if (program_.lobes.size() < kMaxLobes) {
+      program_.lobes.push_back(lobe);
+    }
+  }
+  say_if_full(reader);
+}
+
+void GraphCompiler::say_if_full(const NodeReader& reader) const {
+  if (lobes_ > kMaxLobes) {
+    reader.warn("more than " + std::to_string(kMaxLobes) + " closures; some are left out");
+  }
+}
+
+// --- The end -------------------------------------------------------------------------------------
+
+Program GraphCompiler::finish() {
+  std::vector<bool> used(values_.size(), false);
+  mark_used(used);
+  assign_registers(used);
+  Bsdf bsdf;
+  for (const Lobe& lobe : program_.lobes) {
+    bsdf.add(lobe);
+  }
+  bsdf.finish();
+  program_.lobes.assign(bsdf.lobes().begin(), bsdf.lobes().end());
+  return std::move(program_);
+}
+
+void GraphCompiler::mark_used(std::vector<bool>& used) const {
+  for (const ClosureStep& closure : closures_) {
+    used[closure.share.index] = true;
+    for (const Value operand : closure.operands) {
+      used[operand.index] = true;
+    }
+    if (closure.has_normal) {
+      used[closure.normal.index] = true;
+    }
+  }
+  // Operands stand before the steps that read them.
+  for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+    if (used[step->result.index]) {
+      for (const Value operand : step->operands) {
+        used[operand.index] = true;
+      }
+    }
+  }
+}
+
+void GraphCompiler::assign_registers(const std::vector<bool>& used) {
+  std::vector<uint32_t> place(values_.size(), 0);
+  for (uint32_t i = 0; i < values_.size(); ++i) {
+    if (used[i] && values_[i].is_constant) {
+      place[i] = static_cast<uint32_t>(program_.constants.size());
+      const vec3 x = values_[i].x;
+      const int size = is_vector(values_[i].type) ? 3 : 1;
+      program_.constants.insert(program_.constants.end(), &x.x, &x.x + size);
+    }
+  }
+  // A register is free again after the last step that reads it; what closures read never is.
+  constexpr size_t kAlways = SIZE_MAX;
+  std::vector<size_t> last(values_.size(), 0);
+  for (size_t s = 0; s < steps_.size(); ++s) {
+    if (used[steps_[s].result.index]) {
+      for (const Value operand : steps_[s].operands) {
+        last[operand.index] = s;
+      }
+    }
+  }
+  for (const ClosureStep& closure : closures_) {
+    last[closure.share.index] = kAlways;
+    for (const Value operand : closure.operands) {
+      last[operand.index] = kAlways;
+    }
+    if (closure.has_normal) {
+      last[closure.normal.index] = kAlways;
+    }
+  }
+  size_t top = program_.constants.size();
+  std::vector<uint32_t> free[2];  // numbers, vectors
+  for (size_t s = 0; s < steps_.size(); ++s) {
+    const Step& step = steps_[s];
+    if (!used[step.result.index]) {
+      continue;
+    }
+    const bool vector = is_vector(step.operation.result);
+    std::vector<uint32_t>& available = free[vector];
+    if (available.empty()) {
+      place[step.result.index] = static_cast<uint32_t>(top);
+      top += vector ? 3 : 1;
+    } else {
+      place[step.result.index] = available.back();
+      available.pop_back();
+    }
+    std::set<uint32_t> ended;
+    for (const Value operand : step.operands) {
+      const Definition& definition = values_[operand.index];
+      if (!definition.is_constant && last[operand.index] == s &&
+          ended.insert(operand.index).second) {
+        free[is_vector(definition.type)].push_back(place[operand.index]);
+      }
+    }
+    const auto first = static_cast<uint32_t>(program_.operands.size());
+    for (const Value operand : step.operands) {
+      program_.operands.push_back(static_cast<uint16_t>(place[operand.index]));
+    }
+    program_.instructions.push_back({step.operation.kernel, first, step.data,
+                                     static_cast<uint16_t>(place[step.result.index]), step.at});
+    program_.dependence = std::max(program_.dependence, step.operation.dependence);
+    program_.shifted |= step.at != 0;
+  }
+  if (top > kMaxRegisters) {
+    diagnostics_.push_back({Severity::Warning, "", material_, "",
+                            "the shader is too large; what varies over the surface is left out"});
+    program_.instructions.clear();
+    program_.constants.clear();
+    program_.varying_emission = program_.varying_transparency = false;
+    return;
+  }
+  for (const ClosureStep& step : closures_) {
+    const auto first = static_cast<uint32_t>(program_.operands.size());
+    for (const Value operand : step.operands) {
+      program_.operands.push_back(static_cast<uint16_t>(place[operand.index]));
+    }
+    const auto normal = static_cast<uint16_t>(place[step.normal.index]);
+    program_.closures.push_back({step.decl, static_cast<uint16_t>(place[step.share.index]), first,
+                                 step.has_normal ? normal : Closure::kNoNormal, step.multiscatter});
+  }
+}
+
+}  // namespace janus

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/shading/node_emitter.h"
+
+#include "janus/shading/graph_compiler.h"
+
+namespace janus {
+
+Value NodeEmitter::input(std::string_view identifier, int at) {
+  return compiler_.input(reader_, identifier, at == 0 ? at_ : static_cast<uint16_t>(at));
+}
+
+bool NodeEmitter::is_constant(Value value, float* x) const {
+  const vec3* found = compiler_.as_constant(value);
+  if (found && x) {
+    *x = found->x;
+  }
+  return found != nullptr;
+}
+
+Value NodeEmitter::constant(float x) { return compiler_.constant(vec3(x), SocketType::Float); }
+Value NodeEmitter::constant(vec3 x) { return compiler_.constant(x, SocketType::Vector); }
+Value NodeEmitter::convert(Value value, SocketType type) { return compiler_.convert(value, type); }
+
+Value NodeEmitter::emit(const Operation& operation, std::initializer_list<Value> operands,
+                        uint32_t data) {
+  return compiler_.emit(operation, operands, data, at_);
+}
+
+uint32_t NodeEmitter::attribute(const std::string& key) { return compiler_.attribute(key); }
+uint32_t NodeEmitter::table(std::vector<float> values) {
+  return compiler_.table(std::move(values));
+}
+uint32_t NodeEmitter::texture(Texture texture) { return compiler_.texture(std::move(texture)); }
+
+const ImageDesc* NodeEmitter::image(std::string_view name) const {
+  return compiler_.image(property(name));
+}
+
+void NodeEmitter::output(std::string_view identifier, Value value) {
+  compiler_.output(reader_.node(), at_, identifier, value);
+}
+
+bool NodeEmitter::output_linked(std::string_view identifier) const {
+  return compiler_.linked(reader_.node(), identifier);
+}
+
+}  // namespace janus

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the emit function of a node sees of the compiler.
+//
+// Attributes are asked for by key: "uv:NAME" (a UV map; without a name, the active one),
+// "attribute:NAME", "color:" (the active colours), "generated", "tangent:NAME" (of a UV map).
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "janus/shading/node_reader.h"
+#include "janus/shading/operation.h"
+
+namespace janus {
+
+// A result of the program; a number of the compiler's.
+struct Value {
+  uint32_t index;
+  SocketType type;
+};
+
+class GraphCompiler;
+
+class NodeEmitter {
+ public:
+  NodeEmitter(GraphCompiler& compiler, const NodeReader& reader, uint16_t at)
+      : compiler_(compiler), reader_(reader), at_(at) {}
+
+  // The value of an input, of its declared type. `at`: for a shifted input, which point.
+  Value input(std::string_view identifier, int at = 0);
+  bool linked(std::string_view identifier) const { return reader_.link(identifier) != nullptr; }
+  // Nothing feeds it: not a link, not a value.
+  bool omitted(std::string_view identifier) const { return reader_.omitted(identifier); }
+  // The value of an input that is a constant after folding.
+  bool is_constant(Value value, float* x) const;
+
+  std::string property(std::string_view name, std::string_view fallback = "") const {
+    return reader_.property(name, fallback);
+  }
+  bool flag(std::string_view name) const { return reader_.flag(name); }
+  float number(std::string_view name) const { return reader_.number_property(name); }
+  const std::vector<float>* list(std::string_view name) const { return reader_.list(name); }
+  const std::string& type() const { return reader_.node().type; }
+
+  Value constant(float x);
+  Value constant(vec3 x);
+  // Operands are converted to what the operation takes, as sockets convert.
+  Value emit(const Operation& operation, std::initializer_list<Value> operands, uint32_t data = 0);
+  Value convert(Value value, SocketType type);
+
+  uint32_t attribute(const std::string& key);
+  uint32_t table(std::vector<float> values);
+  uint32_t texture(Texture texture);
+  // The picture that the property `name` speaks of; nullptr: there is none.
+  const ImageDesc* image(std::string_view name) const;
+
+  void output(std::string_view identifier, Value value);
+  // Does some input take this output?
+  bool output_linked(std::string_view identifier) const;
+  void warn(const std::string& message) const { reader_.warn(message); }
+
+ private:
+  GraphCompiler& compiler_;
+  const NodeReader& reader_;
+  uint16_t at_;
+};
+
+}  // namespace janus

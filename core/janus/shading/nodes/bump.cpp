@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Normals from pictures: Normal Map, Bump. Results look at the viewer, as Cycles' normals do.
+#include <algorithm>
+#include <cmath>
+
+#include "janus/shading/node_emitter.h"
+#include "janus/shading/nodes/families.h"
+#include "janus/shading/nodes/rotation.h"
+
+namespace janus {
+
+namespace {
+
+using enum SocketType;
+
+constexpr std::string_view kNormal[] = {"Normal"};
+
+// --- Normal Map ----------------------------------------------------------------------------------
+
+constexpr SocketDecl kMapInputs[] = {{"Strength", Float, 1.0f},
+                                     {"Color", Color, vec3(0.5f, 0.5f, 1.0f)}};
+
+vec3 decoded(vec3 color) { return 2.0f * (color - 0.5f); }
+
+// On the viewer's side, and never nothing.
+vec3 usable(const ShadingPoint& point, vec3 front) {
+  const vec3 n = point.facing(safe_normalize(front));
+  return is_black(n) || !is_finite(n) ? point.facing(point.ns) : n;
+}
+
+vec3 weaken(const ShadingPoint& point, vec3 n, float strength) {
+  if (strength == 1.0f) {
+    return n;
+  }
+  const vec3 plain = point.facing(point.ns);
+  const vec3 mixed = safe_normalize(plain + (n - plain) * std::max(strength, 0.0f));
+  return is_black(mixed) ? plain : mixed;
+}
+
+// `data`: the slot of the tangents. Their fourth channel is the handedness.
+vec3 tangent_map(const Context& c, float strength, vec3 color) {
+  vec3 m = decoded(color);
+  m.x *= strength;
+  m.y *= strength;
+  m.z += (1.0f - std::clamp(strength, 0.0f, 1.0f)) * (1.0f - m.z);
+  const vec4 tangent = c.point.attribute(c.data);
+  const vec3 n = c.point.object_normal;  // in object space: that is where the map was made
+  const vec3 b = tangent.w * cross(n, vec3(tangent));
+  const vec3 mapped = safe_normalize(m.x * vec3(tangent) + m.y * b + m.z * n);
+  return usable(c.point, c.point.object->normal_to_world * mapped);
+}
+vec3 object_map(const Context& c, float strength, vec3 color) {
+  const vec3 n = c.point.object->normal_to_world * decoded(color);
+  return weaken(c.point, usable(c.point, n), strength);
+}
+vec3 blender_object_map(const Context& c, float strength, vec3 color) {
+  const vec3 n = c.point.object->normal_to_world * (decoded(color) * vec3(1, -1, -1));
+  return weaken(c.point, usable(c.point, n), strength);
+}
+vec3 world_map(const Context& c, float strength, vec3 color) {
+  return weaken(c.point, usable(c.point, decoded(color)), strength);
+}
+vec3 blender_world_map(const Context& c, float strength, vec3 color) {
+  return weaken(c.point, usable(c.point, decoded(color) * vec3(1, -1, -1)), strength);
+}
+
+void emit_normal_map(NodeEmitter& e) {
+  const std::string space = e.property("space", "TANGENT");
+  const Value strength = e.input("Strength"), color = e.input("Color");
+  const bool tangent = space == "TANGENT";
+  const Operation& operation = tangent                     ? by_side<&tangent_map>
+                               : space == "OBJECT"         ? by_side<&object_map>
+                               : space == "BLENDER_OBJECT" ? by_side<&blender_object_map>
+                               : space == "WORLD"          ? by_side<&world_map>
+                                                           : by_side<&blender_world_map>;
+  e.output("Normal", e.emit(operation, {strength, color},
+                            tangent ? e.attribute("tangent:" + e.property("uv_map")) : 0));
+}
+
+// --- Bump ----------------------------------------------------------------------------------------
+
+constexpr SocketDecl kBumpInputs[] = {{"Strength", Float, 1.0f},
+                                      {"Distance", Float, 1.0f},
+                                      {"Filter Width", Float, 0.1f},
+                                      {"Height", Float, 1.0f, true},
+                                      {"Normal", Vector, Implicit::Normal}};
+
+// Perturbed by the slope of a height (M. Mikkelsen, Bump Mapping Unparametrized Surfaces on the
+// GPU): the height here and a footprint away along two tangents. `data`: 1, the height is a depth.
+vec3 bump(const Context& c, float strength, float distance, float height, float height_x,
+          float height_y, vec3 normal) {
+  const vec3 n = c.point.facing(normal);  // a hill is a hill from behind too
+  const vec3 dx = c.point.step(0), dy = c.point.step(1);
+  const vec3 rx = cross(dy, n), ry = cross(n, dx);
+  const float det = dot(dx, rx);
+  const vec3 slope = (height_x - height) * rx + (height_y - height) * ry;
+  distance = c.data ? -distance : distance;
+  const vec3 turned =
+      safe_normalize(std::abs(det) * n - distance * (det < 0.0f ? -1.0f : 1.0f) * slope);
+  strength = std::max(strength, 0.0f);
+  const vec3 mixed = safe_normalize(strength * turned + (1.0f - strength) * n);
+  return is_black(mixed) || !is_finite(mixed) ? normal : c.point.facing(mixed);
+}
+
+void emit_bump(NodeEmitter& e) {
+  const Value n = e.input("Normal");
+  if (!e.linked("Height")) {
+    e.output("Normal", n);
+    return;
+  }
+  // The step is a tenth of a pixel for all nodes of a shader.
+  if (float width = 0.1f; !e.is_constant(e.input("Filter Width"), &width) || width != 0.1f) {
+    e.warn("a filter width other than 0.1 is not supported yet; 0.1 is used");
+  }
+  e.output("Normal", e.emit(by_side<&bump>,
+                            {e.input("Strength"), e.input("Distance"), e.input("Height"),
+                             e.input("Height", 1), e.input("Height", 2), n},
+                            e.flag("invert") ? 1 : 0));
+}
+
+}  // namespace
+
+std::span<const NodeDecl> normal_nodes() {
+  static const NodeDecl kNodes[] = {
+      {"NORMAL_MAP", kMapInputs, kNormal, &emit_normal_map},
+      {"BUMP", kBumpInputs, kNormal, &emit_bump},
+  };
+  return kNodes;
+}
+
+}  // namespace janus

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Nodes that give closures; what they do is in closures.cpp.
+#include "janus/shading/closures.h"
+#include "janus/shading/nodes/families.h"
+
+namespace janus {
+
+namespace {
+
+constexpr std::string_view kBsdf[] = {"BSDF"}, kEmission[] = {"Emission"},
+                           kBackground[] = {"Background"}, kShader[] = {"Shader"};
+constexpr SocketDecl kMix[] = {{"Fac", SocketType::Float, 0.5f},
+                               {"Shader", SocketType::Closure},
+                               {"Shader_001", SocketType::Closure}};
+constexpr SocketDecl kAdd[] = {{"Shader", SocketType::Closure},
+                               {"Shader_001", SocketType::Closure}};
+
+}  // namespace
+
+std::span<const NodeDecl> closure_nodes() {
+  static const NodeDecl kNodes[] = {
+      {"BSDF_DIFFUSE", kDiffuseInputs, kBsdf, nullptr, &kDiffuseClosure},
+      {"BSDF_GLOSSY", kGlossyInputs, kBsdf, nullptr, &kGlossyClosure},
+      {"BSDF_ANISOTROPIC", kGlossyInputs, kBsdf, nullptr, &kGlossyClosure},
+      {"BSDF_GLASS", kGlassInputs, kBsdf, nullptr, &kGlassClosure},
+      {"BSDF_REFRACTION", kRefractionInputs, kBsdf, nullptr, &kRefractionClosure},
+      {"BSDF_TRANSLUCENT", kTranslucentInputs, kBsdf, nullptr, &kTranslucentClosure},
+      {"BSDF_TRANSPARENT", kTransparentInputs, kBsdf, nullptr, &kTransparentClosure},
+      {"EMISSION", kEmissionInputs, kEmission, nullptr, &kEmissionClosure},
+      {"BACKGROUND", kEmissionInputs, kBackground, nullptr, &kEmissionClosure},
+      {"BSDF_PRINCIPLED", kPrincipledInputs, kBsdf, nullptr, &kPrincipledClosure},
+      {"MIX_SHADER", kMix, kShader, nullptr, nullptr, MixOp::Mix},
+      {"ADD_SHADER", kAdd, kShader, nullptr, nullptr, MixOp::Add},
+  };
+  return kNodes;
+}
+
+}  // namespace janus

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The rows of the table of node types, by family. Each file here holds its nodes whole: inputs,
+// outputs, and what they do.
+#pragma once
+
+#include "janus/shading/node_types.h"
+
+namespace janus {
+
+std::span<const NodeDecl> closure_nodes();
+std::span<const NodeDecl> math_nodes();
+std::span<const NodeDecl> mix_nodes();
+std::span<const NodeDecl> color_nodes();
+std::span<const NodeDecl> curve_nodes();
+std::span<const NodeDecl> vector_nodes();
+std::span<const NodeDecl> input_nodes();
+std::span<const NodeDecl> texture_nodes();
+std::span<const NodeDecl> normal_nodes();
+
+}  // namespace janus

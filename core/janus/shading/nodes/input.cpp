@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a shader is told about the point: coordinates, attributes, the object, the view.
+#include <algorithm>
+#include <cmath>
+
+#include "janus/shading/fresnel.h"
+#include "janus/shading/node_emitter.h"
+#include "janus/shading/nodes/families.h"
+#include "janus/shading/nodes/rotation.h"
+
+namespace janus {
+
+namespace {
+
+using enum SocketType;
+
+constexpr Operation kPosition = at_point<[](const Context& c) { return c.point.p; }>;
+constexpr Operation kNormal = by_side<[](const Context& c) { return c.point.facing(c.point.ns); }>;
+constexpr Operation kTrueNormal =
+    by_side<[](const Context& c) { return c.point.facing(c.point.ng); }>;
+constexpr Operation kAttribute =
+    at_point<[](const Context& c) { return vec3(c.point.attribute(c.data)); }>;
+constexpr Operation kAttributeAlpha =
+    at_point<[](const Context& c) { return c.point.attribute(c.data).w; }>;
+constexpr Operation kAttributeFactor =
+    at_point<[](const Context& c) { return average(vec3(c.point.attribute(c.data))); }>;
+
+// --- Texture Coordinate --------------------------------------------------------------------------
+
+constexpr std::string_view kCoordinates[] = {"Generated", "Normal", "UV",        "Object",
+                                             "Camera",    "Window", "Reflection"};
+
+constexpr Operation kObjectNormal = by_side<[](const Context& c) {
+  // Normals go to the object by the transpose of its matrix.
+  return safe_normalize(glm::transpose(mat3(c.point.object->to_world)) *
+                        c.point.facing(c.point.ns));
+}>;
+constexpr Operation kObjectPoint = at_point<[](const Context& c) {
+  return vec3(c.point.object->to_object * vec4(c.point.p, 1.0f));
+}>;
+constexpr Operation kCameraPoint = at_point<[](const Context& c) {
+  return vec3(c.point.object->to_camera * vec4(c.point.p, 1.0f));
+}>;
+// By the rows of a matrix in a table.
+constexpr Operation kOtherObjectPoint = at_point<[](const Context& c) {
+  const std::vector<float>& m = c.program.tables[c.data];
+  const vec3 p = c.point.p;
+  vec3 out;
+  for (int i = 0; i < 3; ++i) {
+    out[i] = m[4 * i] * p.x + m[4 * i + 1] * p.y + m[4 * i + 2] * p.z + m[4 * i + 3];
+  }
+  return out;
+}>;
+constexpr Operation kReflection = by_view<[](const Context& c) {
+  const vec3 n = c.point.facing(c.point.ns);
+  return 2.0f * dot(n, c.point.view) * n - c.point.view;
+}>;
+
+void emit_coordinates(NodeEmitter& e) {
+  e.output("Generated", e.emit(kAttribute, {}, e.attribute("generated")));
+  e.output("Normal", e.emit(kObjectNormal, {}));
+  e.output("UV", e.emit(kAttribute, {}, e.attribute("uv:")));
+  const std::vector<float>* other = e.list("object_matrix");
+  e.output("Object", other && other->size() == 16 ? e.emit(kOtherObjectPoint, {}, e.table(*other))
+                                                  : e.emit(kObjectPoint, {}));
+  e.output("Camera", e.emit(kCameraPoint, {}));
+  e.output("Reflection", e.emit(kReflection, {}));
+}
+
+// --- Attributes ----------------------------------------------------------------------------------
+
+constexpr std::string_view kUv[] = {"UV"}, kColorAlpha[] = {"Color", "Alpha"},
+                           kAttributeOutputs[] = {"Color", "Vector", "Fac", "Alpha"};
+
+void emit_uv_map(NodeEmitter& e) {
+  e.output("UV", e.emit(kAttribute, {}, e.attribute("uv:" + e.property("uv_map"))));
+}
+
+void emit_attribute(NodeEmitter& e) {
+  const std::string kind = e.property("attribute_type", "GEOMETRY");
+  if (kind != "GEOMETRY") {
+    e.warn("attributes of type " + kind + " are not supported yet; 0 is used");
+  }
+  const uint32_t slot = e.attribute("attribute:" + e.property("attribute_name"));
+  const Value value = e.emit(kAttribute, {}, slot);
+  e.output("Color", e.convert(value, Color));
+  e.output("Vector", value);
+  e.output("Fac", e.emit(kAttributeFactor, {}, slot));
+  e.output("Alpha", e.emit(kAttributeAlpha, {}, slot));
+}
+
+void emit_color_attribute(NodeEmitter& e) {
+  const std::string name = e.property("layer_name");
+  const uint32_t slot = e.attribute(name.empty() ? "color:" : "attribute:" + name);
+  e.output("Color", e.convert(e.emit(kAttribute, {}, slot), Color));
+  e.output("Alpha", e.emit(kAttributeAlpha, {}, slot));
+}
+
+// --- Geometry ------------------------------------------------------------------------------------
+
+constexpr std::string_view kGeometry[] = {"Position",    "Normal",     "Tangent",
+                                          "True Normal", "Incoming",   "Parametric",
+                                          "Backfacing",  "Pointiness", "Random Per Island"};
+constexpr Operation kIncoming = by_view<[](const Context& c) { return c.point.view; }>;
+constexpr Operation kParametric = at_point<[](const Context& c) {
+  const vec2 b = c.point.barycentric;
+  return vec3(1.0f - b.x - b.y, b.x, 0.0f);
+}>;
+constexpr Operation kBackfacing =
+    by_side<[](const Context& c) { return c.point.backfacing() ? 1.0f : 0.0f; }>;
+
+// Around the z axis of the object's box.
+constexpr Operation kSphericalTangent = by_side<[](const Context& c, vec3 generated) {
+  const vec3 n = c.point.facing(c.point.ns);
+  const vec3 t =
+      c.point.object->normal_to_world * vec3(0.5f - generated.y, generated.x - 0.5f, 0.0f);
+  return cross(n, safe_normalize(cross(safe_normalize(t), n)));
+}>;
+
+void emit_geometry(NodeEmitter& e) {
+  e.output("Position", e.emit(kPosition, {}));
+  e.output("Normal", e.emit(kNormal, {}));
+  e.output("Tangent",
+           e.emit(kSphericalTangent, {e.emit(kAttribute, {}, e.attribute("generated"))}));
+  e.output("True Normal", e.emit(kTrueNormal, {}));
+  e.output("Incoming", e.emit(kIncoming, {}));
+  e.output("Parametric", e.emit(kParametric, {}));
+  e.output("Backfacing", e.emit(kBackfacing, {}));
+}
+
+// --- Object Info, Camera Data --------------------------------------------------------------------
+
+constexpr std::string_view kObject[] = {"Location",     "Color",          "Alpha",
+                                        "Object Index", "Material Index", "Random"};
+
+void emit_object(NodeEmitter& e) {
+  e.output("Location",
+           e.emit(at_point<[](const Context& c) { return c.point.object->location; }>, {}));
+  e.output(
+      "Color",
+      e.convert(e.emit(at_point<[](const Context& c) { return vec3(c.point.object->color); }>, {}),
+                Color));
+  e.output("Alpha", e.emit(at_point<[](const Context& c) { return c.point.object->color.w; }>, {}));
+  e.output("Object Index",
+           e.emit(at_point<[](const Context& c) { return c.point.object->object_index; }>, {}));
+  e.output("Material Index",
+           e.emit(at_point<[](const Context& c) { return c.point.material_index; }>, {}));
+  e.output("Random", e.emit(at_point<[](const Context& c) { return c.point.object->random; }>, {}));
+}
+
+constexpr std::string_view kCamera[] = {"View Vector", "View Z Depth", "View Distance"};
+
+void emit_camera(NodeEmitter& e) {
+  const Value p = e.emit(kCameraPoint, {});
+  e.output("View Vector", e.emit(pure<&safe_normalize>, {p}));
+  e.output("View Z Depth", e.emit(pure<[](vec3 v) { return v.z; }>, {p}));
+  e.output("View Distance", e.emit(pure<[](vec3 v) { return glm::length(v); }>, {p}));
+}
+
+// --- Fresnel, Layer Weight -----------------------------------------------------------------------
+
+constexpr SocketDecl kFresnelInputs[] = {{"IOR", Float, 1.5f},
+                                         {"Normal", Vector, Implicit::Normal}};
+constexpr SocketDecl kLayerInputs[] = {{"Blend", Float, 0.5f},
+                                       {"Normal", Vector, Implicit::Normal}};
+constexpr std::string_view kFactor[] = {"Fac"}, kLayer[] = {"Fresnel", "Facing"};
+
+float fresnel_factor(const Context& c, float ior, vec3 n) {
+  const float eta = std::max(ior, 1e-5f);
+  return fresnel_dielectric(std::abs(dot(c.point.view, n)),
+                            c.point.backfacing() ? 1.0f / eta : eta);
+}
+float layer_fresnel(const Context& c, float blend, vec3 n) {
+  const float eta = std::max(1.0f - blend, 1e-5f);
+  return fresnel_dielectric(std::abs(dot(c.point.view, n)),
+                            c.point.backfacing() ? eta : 1.0f / eta);
+}
+float layer_facing(const Context& c, float blend, vec3 n) {
+  float f = std::abs(dot(c.point.view, n));
+  if (blend != 0.5f) {
+    blend = std::clamp(blend, 0.0f, 1.0f - 1e-5f);
+    f = std::pow(f, blend < 0.5f ? 2.0f * blend : 0.5f / (1.0f - blend));
+  }
+  return 1.0f - f;
+}
+
+void emit_fresnel(NodeEmitter& e) {
+  e.output("Fac", e.emit(by_view<&fresnel_factor>, {e.input("IOR"), e.input("Normal")}));
+}
+void emit_layer_weight(NodeEmitter& e) {
+  const Value blend = e.input("Blend"), n = e.input("Normal");
+  e.output("Fresnel", e.emit(by_view<&layer_fresnel>, {blend, n}));
+  e.output("Facing", e.emit(by_view<&layer_facing>, {blend, n}));
+}
+
+}  // namespace
+
+std::span<const NodeDecl> input_nodes() {
+  static const NodeDecl kNodes[] = {
+      {"TEX_COORD", {}, kCoordinates, &emit_coordinates},
+      {"UVMAP", {}, kUv, &emit_uv_map},
+      {"ATTRIBUTE", {}, kAttributeOutputs, &emit_attribute},
+      {"VERTEX_COLOR", {}, kColorAlpha, &emit_color_attribute},
+      {"NEW_GEOMETRY", {}, kGeometry, &emit_geometry},
+      {"OBJECT_INFO", {}, kObject, &emit_object},
+      {"CAMERA", {}, kCamera, &emit_camera},
+      {"FRESNEL", kFresnelInputs, kFactor, &emit_fresnel},
+      {"LAYER_WEIGHT", kLayerInputs, kLayer, &emit_layer_weight},
+  };
+  return kNodes;
+}
+
+}  // namespace janus

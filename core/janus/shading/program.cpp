@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/shading/program.h"
+
+#include <algorithm>
+
+#include "janus/shading/closures.h"
+
+namespace janus {
+
+Program::Program() = default;
+Program::~Program() = default;
+Program::Program(Program&&) noexcept = default;
+Program& Program::operator=(Program&&) noexcept = default;
+
+void Program::run(const ShadingPoint& point, ShadingResult& result) const {
+  place(point.ns, result);
+  if (constant()) {
+    return;
+  }
+  float r[kMaxRegisters];
+  std::copy(constants.begin(), constants.end(), r);
+  const ShadingPoint points[3] = {point, shifted ? point.shifted(0) : point,
+                                  shifted ? point.shifted(1) : point};
+  RunState frame{r, points, *this};
+  for (const Instruction& i : instructions) {
+    i.kernel(frame, i);
+  }
+  const int placed = result.bsdf.size();
+  for (const Closure& closure : closures) {
+    if (r[closure.share] <= 0.0f) {
+      continue;
+    }
+    const uint16_t* in = operands.data() + closure.operands;
+    vec3 normal = point.ns;
+    if (closure.normal != Closure::kNoNormal) {
+      const float* n = r + closure.normal;
+      const vec3 facing(n[0], n[1], n[2]);
+      const float length = glm::length(facing);
+      if (length > 0.0f && std::isfinite(length)) {
+        normal = point.facing(facing / length);  // from the viewer's side to the front
+      }
+    }
+    closure.decl->add({closure, r, in, normal}, result);
+  }
+  if (result.bsdf.size() > placed) {
+    result.bsdf.finish();
+  }
+}
+
+void lobes_for_view(const Reshading& reshading, vec3 view, Bsdf& lobes) {
+  ShadingPoint point = reshading.point;
+  point.view = view;
+  ShadingResult result;
+  reshading.program->run(point, result);
+  lobes = result.bsdf;
+}
+
+vec3 view_of(const Reshading& reshading) { return reshading.point.view; }
+
+bool alike(const Reshading& reshading, vec3 a, vec3 b) {
+  const vec3 ng = reshading.point.ng;
+  return reshading.program->dependence == Dependence::Side && dot(a, ng) * dot(b, ng) > 0.0f;
+}
+
+bool may_transmit(const Reshading& reshading) { return reshading.program->transmits; }
+
+}  // namespace janus

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Path tracing, light tracing and BDPT agree on surfaces that vary: over the surface, with their
+// normals, with the side and with the direction from which they are looked at. A value is that of
+// the camera's side, whichever walk made the path; each walk's density is that of where it came
+// from.
+#include "support/pictures.h"
+#include "support/scene_kit.h"
+
+namespace janus::test {
+namespace {
+
+Node with(Node n, const std::string& property, const std::string& value) {
+  n.properties[property] = value;
+  return n;
+}
+
+// A graph whose top is its last node.
+NodeGraph graph(std::vector<Node> nodes, const std::string& output) {
+  NodeGraph g;
+  g.nodes = std::move(nodes);
+  g.surface = NodeLink{g.nodes.back().name, output};
+  return g;
+}
+
+Node mix(const NodeInput& factor) {
+  return node("Mix", "MIX_SHADER",
+              {{"Fac", factor}, {"Shader", link("A")}, {"Shader_001", link("B")}});
+}
+Node plain(const std::string& name, Rgb color) {
+  return node(name, "BSDF_DIFFUSE", {{"Color", vec4(color, 1)}});
+}
+Node rough(const std::string& name, Rgb color, float roughness) {
+  return node(name, "BSDF_GLOSSY", {{"Color", vec4(color, 1)}, {"Roughness", roughness}});
+}
+
+// By position: stripes in colour and roughness.
+NodeGraph striped() {
+  return graph({node("Geometry", "NEW_GEOMETRY", {}),
+                node("Split", "SEPXYZ", {{"Vector", link("Geometry", "Position")}}),
+                with(node("Wide", "MATH", {{"Value", link("Split", "X")}, {"Value_001", 9.0f}}),
+                     "operation", "MULTIPLY"),
+                with(node("Wave", "MATH", {{"Value", link("Wide", "Value")}}), "operation", "SINE"),
+                node("Join", "COMBXYZ", {{"X", 0.8f}, {"Y", link("Wave", "Value")}, {"Z", 0.3f}}),
+                node("Shader", "BSDF_PRINCIPLED",
+                     {{"Base Color", link("Join", "Vector")},
+                      {"Roughness", link("Wave", "Value")},
+                      {"Metallic", link("Wave", "Value")}})},
+               "BSDF");
+}
+
+// A rough coat that grows towards grazing angles over a diffuse ground.
+NodeGraph coated(float roughness) {
+  return graph(
+      {node("Weight", "LAYER_WEIGHT", {{"Blend", 0.7f}}), plain("A", Rgb(0.8f, 0.3f, 0.2f)),
+       rough("B", Rgb(0.9f), roughness), mix(link("Weight", "Facing"))},
+      "Shader");
+}
+
+// Dark from behind, and bright glass where one looks straight at it.
+NodeGraph two_faced() {
+  return graph({node("Geometry", "NEW_GEOMETRY", {}), plain("A", Rgb(0.8f)),
+                node("B", "BSDF_TRANSLUCENT", {{"Color", vec4(0.7f, 0.8f, 0.2f, 1)}}),
+                mix(link("Geometry", "Backfacing"))},
+               "Shader");
+}
+NodeGraph rimmed_glass(float roughness) {
+  return graph(
+      {node("Fresnel", "FRESNEL", {{"IOR", 1.6f}}),
+       node("A", "BSDF_GLASS", {{"Color", vec4(1)}, {"Roughness", roughness}, {"IOR", 1.3f}}),
+       plain("B", Rgb(0.2f, 0.5f, 0.8f)), mix(link("Fresnel", "Fac"))},
+      "Shader");
+}
+
+// Glows at the rim only; one looks through where it is seen from straight above.
+NodeGraph glowing_rim() {
+  return graph({node("Weight", "LAYER_WEIGHT", {{"Blend", 0.3f}}),
+                node("A", "BSDF_DIFFUSE", {{"Color", vec4(0.5f)}}),
+                node("B", "EMISSION", {{"Color", vec4(1, 0.6f, 0.3f, 1)}, {"Strength", 4.0f}}),
+                mix(link("Weight", "Facing"))},
+               "Shader");
+}
+NodeGraph veil() {
+  return graph({node("Weight", "LAYER_WEIGHT", {{"Blend", 0.5f}}),
+                node("A", "BSDF_TRANSPARENT", {{"Color", vec4(0.9f, 0.9f, 0.6f, 1)}}),
+                plain("B", Rgb(0.3f, 0.6f, 0.8f)), mix(link("Weight", "Facing"))},
+               "Shader");
+}
+
+// Waves of height.
+NodeGraph bumped() {
+  return graph({node("Geometry", "NEW_GEOMETRY", {}),
+                node("Split", "SEPXYZ", {{"Vector", link("Geometry", "Position")}}),
+                with(node("Wide", "MATH", {{"Value", link("Split", "Z")}, {"Value_001", 20.0f}}),
+                     "operation", "MULTIPLY"),
+                with(node("Wave", "MATH", {{"Value", link("Wide", "Value")}}), "operation", "SINE"),
+                node("Bump", "BUMP", {{"Height", link("Wave", "Value")}, {"Distance", 0.03f}}),
+                node("Shader", "BSDF_PRINCIPLED",
+                     {{"Base Color", vec4(0.8f, 0.7f, 0.6f, 1)},
+                      {"Roughness", 0.4f},
+                      {"Normal", link("Bump", "Normal")}})},
+               "BSDF");
+}
+
+struct ShaderScene {
+  std::string name;
+  NodeGraph (*make)();
+  bool light_tracing;
+  int samples = 32;
+};
+
+const ShaderScene kScenes[] = {
+    {"striped", &striped, true},
+    {"bumped", &bumped, true, 64},
+    {"coated", [] { return coated(0.4f); }, true},
+    {"mirror_coated", [] { return coated(0.0f); }, false, 64},
+    // A light walk goes on as the surface looks from where it comes; what the surface lets through
+    // for another side only, light paths alone never find.
+    {"two_faced", &two_faced, false},
+    {"rimmed_rough_glass", [] { return rimmed_glass(0.4f); }, true, 64},
+    {"rimmed_glass", [] { return rimmed_glass(0.0f); }, false, 64},
+    {"glowing_rim", &glowing_rim, true},
+    {"veil", &veil, true},
+};
+
+std::ostream& operator<<(std::ostream& out, const ShaderScene& s) { return out << s.name; }
+
+class ShaderAgreement : public ::testing::TestWithParam<ShaderScene> {};
+
+TEST_P(ShaderAgreement, AllIntegrators) {
+  const auto& [name, make, light_tracing, count] = GetParam();
+  const auto scene = room()
+                         .add("ball", ball(0.4f, 24, true), make(), translation({0.3f, 0.1f, 0.1f}))
+                         .add("pane", plane(0.7f, 0.7f), make(),
+                              translation({-0.45f, 0.1f, 0.2f}) * rotation({0, 1, 0}, 1.2f))
+                         .light("l", area_light({0, 0, 0.95f}, {0, 0, 0}, 0.9f, 20))
+                         .build();
+  EXPECT_TRUE(scene->diagnostics.empty());
+  const auto bdpt = quarters(scene, small_picture(IntegratorType::Bdpt, samples(count)));
+  const auto pt = quarters(scene, small_picture(IntegratorType::PathTracer, samples(3 * count)));
+  expect_agreement(bdpt, pt);
+  if (light_tracing) {
+    expect_agreement(bdpt,
+                     quarters(scene, small_picture(IntegratorType::LightTracer, samples(count))));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShaderAgreement, ::testing::ValuesIn(kScenes),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace janus::test

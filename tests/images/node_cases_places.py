@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cases for nodes that ask where they are: vectors, coordinates, attributes, pictures, normals."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .node_cases import CASES, case, enum_items, fill
+
+
+def add_cases() -> None:
+    vector_cases()
+    input_cases()
+    texture_cases()
+
+
+def vector_cases() -> None:
+    for kind in enum_items("Mapping", "vector_type"):
+
+        def build(t, kind=kind):
+            inputs = {"Vector": t.vector(), "Rotation": (0.3, -0.5, 1.1), "Scale": (0.5, -2.0, 1.5)}
+            if kind in ("POINT", "TEXTURE"):
+                inputs["Location"] = (0.2, 0.1, -0.3)
+            return t.out("Mapping", inputs, vector_type=kind)
+
+        CASES[f"mapping {kind}"] = build
+    for operation in enum_items("VectorMath", "operation"):
+
+        def build(t, operation=operation):
+            a, b, c = t.signed()
+            first = t.vector()
+            second = t.out("CombineXYZ", {0: c, 1: a, 2: b})
+            node = t.node("VectorMath", {0: first}, operation=operation)
+            if node.inputs[1].enabled:
+                t.tree.links.new(second, node.inputs[1])
+            fill(node, Vector_002=(0.3, -0.2, 0.8))
+            fill(node, Scale=0.7)
+            return next(o for o in node.outputs if o.enabled)
+
+        CASES[f"vector math {operation}"] = build
+    for kind in enum_items("VectorRotate", "rotation_type"):
+        for invert in (False, True):
+
+            def build(t, kind=kind, invert=invert):
+                node = t.node(
+                    "VectorRotate",
+                    {"Vector": t.vector(), "Center": (0.1, 0.2, 0.3)},
+                    rotation_type=kind,
+                    invert=invert,
+                )
+                fill(node, Axis=(1, 2, 3), Angle=0.7, Rotation=(0.3, 0.5, 0.9))
+                return node.outputs[0]
+
+            CASES[f"vector rotate {kind} {invert}"] = build
+    for kind in enum_items("VectorTransform", "vector_type"):
+        for start in ("WORLD", "OBJECT", "CAMERA"):
+            for end in ("WORLD", "OBJECT", "CAMERA"):
+
+                def build(t, kind=kind, start=start, end=end):
+                    return t.out(
+                        "VectorTransform",
+                        {0: t.vector()},
+                        vector_type=kind,
+                        convert_from=start,
+                        convert_to=end,
+                    )
+
+                CASES[f"vector transform {kind} {start} {end}"] = build
+
+    for output in (0, 1):
+
+        def build(t, output=output):
+            node = t.node("Normal", {0: t.vector()})
+            node.outputs[0].default_value = (0.3, 0.4, 0.8)
+            return node.outputs[output]
+
+        CASES[f"normal {output}"] = build
+
+
+def input_cases() -> None:
+    for name in ("Generated", "Normal", "UV", "Object", "Camera", "Reflection"):
+        CASES[f"coordinate {name}"] = lambda t, name=name: t.coordinate(name)
+    for name in (
+        "Position",
+        "Normal",
+        "Tangent",
+        "True Normal",
+        "Incoming",
+        "Parametric",
+        "Backfacing",
+    ):
+        CASES[f"geometry {name}"] = lambda t, name=name: t.out("NewGeometry", output=name)
+    for name in ("Location", "Color", "Alpha", "Object Index", "Material Index", "Random"):
+        CASES[f"object {name}"] = lambda t, name=name: t.out("ObjectInfo", output=name)
+    for name in ("View Vector", "View Z Depth", "View Distance"):
+        CASES[f"camera {name}"] = lambda t, name=name: t.out("CameraData", output=name)
+    for name in ("Spare UV", ""):
+        CASES[f"uv map {name}"] = lambda t, name=name: t.out("UVMap", uv_map=name)
+    for name in ("Float", "Int", "Bool", "Vector", "Color", "Byte", "Face", "Corner", "Missing"):
+        for output in range(4):
+            CASES[f"attribute {name} {output}"] = lambda t, name=name, output=output: t.out(
+                "Attribute", output=output, attribute_name=name
+            )
+    for name in ("Color", "Byte", ""):
+        for output in (0, 1):
+            CASES[f"color attribute {name} {output}"] = lambda t, name=name, output=output: t.out(
+                "VertexColor", output=output, layer_name=name
+            )
+
+    CASES["fresnel"] = lambda t: t.out("Fresnel", {"IOR": t.signed()[0]})
+    for output in (0, 1):
+        CASES[f"layer weight {output}"] = lambda t, output=output: t.out(
+            "LayerWeight", {"Blend": t.parts()[0]}, output
+        )
+
+    @case("coordinate of another object")
+    def _(t):
+        import bpy
+
+        return t.out("TexCoord", output="Object", object=bpy.data.objects["Other"])
+
+
+def picture(name: str, width=5, height=4, alpha=False, floats=False, space=None):
+    import bpy
+
+    if name in bpy.data.images:
+        return bpy.data.images[name]
+    image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=floats)
+    if space:
+        image.colorspace_settings.name = space
+    pixels = np.random.default_rng(5).uniform(0.0, 1.0, (height, width, 4)).astype(np.float32)
+    if not alpha:
+        pixels[..., 3] = 1.0
+    image.pixels.foreach_set(pixels.ravel())
+    image.update()
+    image.pack()
+    return image
+
+
+def texture_cases() -> None:
+    def placed(t, scale=(1.7, 1.3, 1.0), move=(-0.3, -0.2, 0.1), kind="UV"):
+        return t.out("Mapping", {"Vector": t.coordinate(kind), "Scale": scale, "Location": move})
+
+    for interpolation in ("Linear", "Closest", "Cubic", "Smart"):
+        for extension in enum_items("TexImage", "extension"):
+
+            def build(t, interpolation=interpolation, extension=extension):
+                return t.out(
+                    "TexImage",
+                    {0: placed(t)},
+                    image=picture("Bytes"),
+                    interpolation=interpolation,
+                    extension=extension,
+                )
+
+            CASES[f"image {interpolation} {extension}"] = build
+    for projection in ("SPHERE", "TUBE"):
+        CASES[f"image {projection}"] = lambda t, projection=projection: t.out(
+            "TexImage",
+            {0: placed(t, kind="Generated")},
+            image=picture("Bytes"),
+            projection=projection,
+        )
+    for blend in (0.0, 0.3, 1.0):
+        CASES[f"image BOX {blend}"] = lambda t, blend=blend: t.out(
+            "TexImage",
+            {0: t.coordinate("Generated")},
+            image=picture("Bytes"),
+            projection="BOX",
+            projection_blend=blend,
+        )
+    for mode in ("STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE"):
+        for space in ("sRGB", "Non-Color"):
+            for output in (0, 1):
+
+                def build(t, mode=mode, space=space, output=output):
+                    image = picture(f"Alpha {mode} {space}", alpha=True, space=space)
+                    image.alpha_mode = mode
+                    node = t.node("TexImage", {0: placed(t)}, image=image)
+                    return node.outputs[output]
+
+                CASES[f"image alpha {mode} {space} {output}"] = build
+
+            def build(t, mode=mode, space=space):
+                image = picture(f"Alpha {mode} {space}", alpha=True, space=space)
+                image.alpha_mode = mode
+                node = t.node("TexImage", {0: placed(t)}, image=image)
+                return t.out(
+                    "Mix",
+                    {
+                        "Factor_Float": node.outputs[1],
+                        "A_Color": (0, 0, 0, 1),
+                        "B_Color": node.outputs[0],
+                    },
+                    "Result_Color",
+                    data_type="RGBA",
+                )
+
+            CASES[f"image alpha used {mode} {space}"] = build
+    CASES["image floats"] = lambda t: t.out(
+        "TexImage", {0: placed(t)}, image=picture("Floats", floats=True)
+    )
+    for kind in ("UV", "Generated"):
+        CASES[f"image over {kind}"] = lambda t, kind=kind: t.out(
+            "TexImage", {0: t.coordinate(kind)}, image=picture("Bytes")
+        )
+    CASES["image without vector"] = lambda t: t.out("TexImage", image=picture("Bytes"))
+    CASES["image missing"] = lambda t: t.out("TexImage")
+    for projection in ("EQUIRECTANGULAR", "MIRROR_BALL"):
+        CASES[f"environment {projection}"] = lambda t, projection=projection: t.out(
+            "TexEnvironment", {0: t.vector()}, image=picture("Bytes"), projection=projection
+        )
+
+    def normal_of(t, socket):
+        """What a normal does, where it can be seen: its components, from 0 to 1."""
+        return t.out(
+            "VectorMath",
+            {0: socket, 1: (0.5, 0.5, 0.5), 2: (0.5, 0.5, 0.5)},
+            operation="MULTIPLY_ADD",
+        )
+
+    for space in enum_items("NormalMap", "space"):
+        for strength in (1.0, 0.4, 1.5):
+
+            def build(t, space=space, strength=strength):
+                node = t.node("NormalMap", {"Color": t.color(), "Strength": strength}, space=space)
+                return normal_of(t, node.outputs[0])
+
+            CASES[f"normal map {space} {strength}"] = build
+    for invert in (False, True):
+        for strength in (1.0, 0.5):
+
+            def build(t, invert=invert, strength=strength):
+                u, v, _ = t.parts()
+                height = t.out(
+                    "Math",
+                    {0: t.out("Math", {0: u, 1: 9.0}, operation="MULTIPLY")},
+                    operation="SINE",
+                )
+                height = t.out("Math", {0: height, 1: v}, operation="MULTIPLY")
+                node = t.node(
+                    "Bump", {"Height": height, "Strength": strength, "Distance": 0.1}, invert=invert
+                )
+                return normal_of(t, node.outputs[0])
+
+            CASES[f"bump {invert} {strength}"] = build

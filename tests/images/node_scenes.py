@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A sheet of tiles, each with the Emission of one small node tree: pictures by Cycles and by Janus.
+
+`python node_scenes.py FOLDER` writes FOLDER/sheet_N_cycles.exr, FOLDER/sheet_N_janus.exr and
+FOLDER/sheets.json: for each sheet the names of its cases and what Janus said. One process makes
+them all. The filter is so narrow that every sample lies in the middle of its pixel.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+TILE, COLUMNS = 16, 16  # pixels along a tile; tiles along a sheet
+SUBDIVISIONS = 6
+SCALE, LIFT = 0.1, 10.0
+
+
+def tile_mesh():
+    """A square from -1 to 1, wavy and smooth, with maps and attributes of every kind."""
+    import bpy
+
+    n = SUBDIVISIONS
+    x, y = np.meshgrid(np.linspace(-1, 1, n + 1), np.linspace(-1, 1, n + 1), indexing="ij")
+    z = 0.25 * np.sin(2.0 * x + 0.4) * np.cos(1.7 * y)
+    points = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).reshape(-1)
+    faces = np.stack([corner, corner + n + 1, corner + n + 2, corner + 1], axis=-1)
+    mesh = bpy.data.meshes.new("Tile")
+    mesh.from_pydata(points.tolist(), [], faces.tolist())
+    mesh.shade_smooth()
+    loops = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.loops.foreach_get("vertex_index", loops)
+    flat = 0.5 + 0.5 * points[loops, :2]
+    turned = 0.5 + 0.35 * (flat - 0.5) @ np.array([[0.8, 0.6], [-0.6, 0.8]])
+    mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", flat.astype(np.float32).ravel())
+    mesh.uv_layers.new(name="Spare UV").uv.foreach_set("vector", turned.astype(np.float32).ravel())
+    mesh.uv_layers["UVMap"].active_render = True
+    random = np.random.default_rng(3)
+
+    def attribute(name, kind, domain, field, channels, values=None):
+        data = mesh.attributes.new(name, kind, domain).data
+        if values is None:
+            values = random.uniform(0.0, 1.0, len(data) * channels).astype(np.float32)
+        data.foreach_set(field, values)
+
+    vertices, polygons = len(mesh.vertices), len(mesh.polygons)
+    attribute("Float", "FLOAT", "POINT", "value", 1)
+    attribute("Int", "INT", "POINT", "value", 1, np.arange(vertices, dtype=np.int32) % 5)
+    attribute("Bool", "BOOLEAN", "FACE", "value", 1, np.arange(polygons) % 2 == 0)
+    attribute("Vector", "FLOAT_VECTOR", "POINT", "vector", 3)
+    attribute("Color", "FLOAT_COLOR", "POINT", "color", 4)
+    attribute("Byte", "BYTE_COLOR", "CORNER", "color", 4)
+    attribute("Face", "FLOAT", "FACE", "value", 1)
+    attribute("Corner", "FLOAT_VECTOR", "CORNER", "vector", 3)
+    mesh.materials.append(None)  # the slot that objects fill
+    mesh.color_attributes.render_color_index = mesh.color_attributes.find("Byte")
+    return mesh
+
+
+def build_sheet(names, cases):
+    """A scene with a tile for each name, seen from above."""
+    import bpy
+
+    from tests.images.node_cases import Tree
+
+    scene = bpy.context.scene
+    rows = math.ceil(len(names) / COLUMNS)
+    mesh = tile_mesh()
+    other = bpy.data.objects.get("Other")
+    for number, name in enumerate(names):
+        material = bpy.data.materials.new(name)
+        if bpy.app.version < (5, 0, 0):
+            material.use_nodes = True
+        material.pass_index = number % 3
+        tree = material.node_tree
+        tree.nodes.clear()
+        emission = tree.nodes.new("ShaderNodeEmission")
+        output = tree.nodes.new("ShaderNodeOutputMaterial")
+        tree.links.new(emission.outputs[0], output.inputs["Surface"])
+        # Light below zero is no light: a tenth of the value, lifted.
+        lifted = Tree(tree).out(
+            "VectorMath",
+            {0: cases[name](Tree(tree)), 1: [SCALE] * 3, 2: [LIFT] * 3},
+            operation="MULTIPLY_ADD",
+        )
+        tree.links.new(lifted, emission.inputs["Color"])
+        obj = bpy.data.objects.new(name, mesh)
+        scene.collection.objects.link(obj)
+        obj.location = (2.2 * (number % COLUMNS), 2.2 * (number // COLUMNS), 0.0)
+        # Turned, moved, and every second one looked at from behind.
+        obj.rotation_euler = (0.2, math.pi - 0.15 if number % 2 else -0.15, 0.1)
+        obj.color = (0.2, 0.4, 0.6, 0.8)
+        obj.pass_index = number % 5
+        obj.material_slots[0].link = "OBJECT"
+        obj.material_slots[0].material = material
+    other.location = (3.0, 1.0, 2.0)
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    camera.data.type = "ORTHO"
+    camera.data.ortho_scale = 2.2 * max(COLUMNS, rows)
+    camera.location = (1.1 * (COLUMNS - 1), 1.1 * (rows - 1), 8.0)
+    scene.render.resolution_x, scene.render.resolution_y = TILE * COLUMNS, TILE * rows
+    return scene
+
+
+def main(folder: Path, chosen: list[str]) -> None:
+    import bpy
+
+    from scenes import kit
+    from scenes.driver import addon as addons
+    from tests.images import node_cases
+
+    addon = addons.load()
+    node_cases.add_cases()
+    names = [n for n in node_cases.CASES if not chosen or any(c in n for c in chosen)]
+    sheets = []
+    for start in range(0, len(names), COLUMNS * COLUMNS):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        scene = bpy.context.scene
+        kit.neutral_settings(scene, 8, 8, 64)
+        kit.world(scene)
+        scene.collection.objects.link(bpy.data.objects.new("Other", None))
+        part = names[start : start + COLUMNS * COLUMNS]
+        build_sheet(part, node_cases.CASES)
+        scene.render.image_settings.file_format = "OPEN_EXR"
+        scene.render.image_settings.color_depth = "32"
+        scene.render.threads_mode, scene.render.threads = "FIXED", 2
+        scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BLACKMAN_HARRIS", 0.01
+        scene.janus.pixel_filter_type, scene.janus.filter_width = "BLACKMAN_HARRIS", 0.01
+        scene.janus.integrator = "PT"
+        said = []
+        for engine in ("CYCLES", addons.ENGINE):
+            scene.render.engine = engine
+            kind = "cycles" if engine == "CYCLES" else "janus"
+            scene.render.filepath = str(folder / f"sheet_{len(sheets)}_{kind}.exr")
+            bpy.ops.render.render(write_still=True)
+        for entry, _ in addon.part("report").kept(scene.name_full):
+            said.append([entry.severity, entry.material, entry.node, entry.message])
+        scene.render.engine = "CYCLES"
+        sheets.append({"names": part, "said": said})
+    (folder / "sheets.json").write_text(json.dumps(sheets))
+    addon.unload()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(0)  # Blender's own exit can crash
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(ROOT))
+    main(Path(sys.argv[1]), sys.argv[2:])
