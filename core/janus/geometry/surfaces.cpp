@@ -65,7 +65,7 @@ void Surfaces::set_objects(const std::vector<Mesh>& meshes, const std::vector<In
 ShadingPoint Surfaces::point(const SurfaceInteraction& hit, vec3 view) const {
   const Surface& surface = surfaces_[hit.material];
   const Mesh& mesh = *meshes_[hit.instance];
-  ShadingPoint point;
+  ShadingPoint point{};
   point.p = hit.p;
   point.ng = hit.ng;
   point.ns = hit.ns;

@@ -69,10 +69,7 @@ Rgb MeshLight::mean_radiance(uint32_t primitive) const {
   return sum / (2.0f * kSide * kSide);
 }
 
-Rgb MeshLight::radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const {
-  if (!triangle.varying) {
-    return triangle.radiance;
-  }
+Rgb MeshLight::varying_radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const {
   ShadingResult shading;
   surfaces_.shade(accel_.surface_point(instance_, triangle.primitive, barycentric), view, shading);
   return shading.emission;

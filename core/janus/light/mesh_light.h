@@ -44,7 +44,10 @@ class MeshLight final : public Light {
   // What the mesh's triangle emits: the mean over some of its points, from both sides.
   Rgb mean_radiance(uint32_t primitive) const;
   // At a point, into the unit direction `view`.
-  Rgb radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const;
+  Rgb radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const {
+    return triangle.varying ? varying_radiance(triangle, barycentric, view) : triangle.radiance;
+  }
+  Rgb varying_radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const;
 
   const Accel& accel_;
   const Surfaces& surfaces_;

@@ -23,6 +23,24 @@ float refraction_jacobian(vec3 wo, vec3 wi, vec3 n, float eta2_light_over_camera
   return cos_o > 0.0f ? eta2_light_over_camera * std::abs(dot(wi, n)) / cos_o : 0.0f;
 }
 
+// Inlined by hand: one of the hottest loops, in one place too many for the compiler.
+[[gnu::always_inline]] inline void add_lobes(std::span<const Lobe> lobes, vec3 ng,
+                                             const Directions& d, BsdfEval& sum) {
+  const float grazing_o = grazing(d.wo_ng), grazing_i = grazing(d.wi_ng);
+  for (const Lobe& lobe : lobes) {
+    if (is_delta(lobe)) {
+      continue;
+    }
+    const LobeEval e = evaluate_lobe(lobe, ng, d);
+    sum.f += e.f;
+    if (!is_ggx(lobe.type)) {
+      sum.diffuse += average(e.f);
+    }
+    sum.pdf_radiance += pmf(lobe, grazing_o) * e.pdf_radiance;
+    sum.pdf_importance += pmf(lobe, grazing_i) * e.pdf_importance;
+  }
+}
+
 }  // namespace
 
 void Bsdf::finish() {
@@ -90,44 +108,31 @@ bool BsdfView::transmits() const {
   return false;
 }
 
-BsdfEval BsdfView::evaluate_lobes(std::span<const Lobe> lobes, const Directions& d) const {
-  BsdfEval sum;
-  const float grazing_o = grazing(d.wo_ng), grazing_i = grazing(d.wi_ng);
-  for (const Lobe& lobe : lobes) {
-    if (is_delta(lobe)) {
-      continue;
-    }
-    const LobeEval e = evaluate_lobe(lobe, ng_, d);
-    sum.f += e.f;
-    if (!is_ggx(lobe.type)) {
-      sum.diffuse += e.f;
-    }
-    sum.pdf_radiance += pmf(lobe, grazing_o) * e.pdf_radiance;
-    sum.pdf_importance += pmf(lobe, grazing_i) * e.pdf_importance;
+void BsdfView::reshade(const Directions& d, BsdfEval& sum) const {
+  // The lobes at hand are those of the camera side or of the light side: get the others.
+  const vec3 view = view_of(*reshading_);
+  const bool camera = dot(view, d.wo) >= dot(view, d.wi);
+  Bsdf other;
+  lobes_for_view(*reshading_, camera ? d.wi : d.wo, other);
+  BsdfEval seen;
+  add_lobes(other.lobes(), ng_, d, seen);
+  if (camera) {
+    sum.pdf_importance = seen.pdf_importance;
+  } else {
+    seen.pdf_importance = sum.pdf_importance;
+    sum = seen;
   }
-  return sum;
 }
 
 BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
   const Directions d{wo, wi, dot(wo, ng_), dot(wi, ng_)};
+  BsdfEval sum;
   if (d.wo_ng == 0.0f || d.wi_ng == 0.0f) {
-    return {};
+    return sum;
   }
-  BsdfEval sum = evaluate_lobes(lobes_, d);
+  add_lobes(lobes_, ng_, d, sum);
   if (reshading_ && !alike(*reshading_, wo, wi)) {
-    // Ours are those of the camera side or of the light side: get the others.
-    const vec3 view = view_of(*reshading_);
-    const bool camera = dot(view, wo) >= dot(view, wi);
-    Bsdf other;
-    lobes_for_view(*reshading_, camera ? wi : wo, other);
-    const BsdfEval seen = evaluate_lobes(other.lobes(), d);
-    if (camera) {
-      sum.pdf_importance = seen.pdf_importance;
-    } else {
-      const float pdf_importance = sum.pdf_importance;
-      sum = seen;
-      sum.pdf_importance = pdf_importance;
-    }
+    reshade(d, sum);
   }
   if (mode == TransportMode::Importance) {
     const float adjoint = std::abs(d.wo_ng / d.wi_ng);

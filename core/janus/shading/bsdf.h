@@ -96,7 +96,7 @@ class BsdfView {
                                              TransportMode mode) const;
   std::optional<BsdfSample> sample_event(const Lobe& lobe, float chosen, vec3 from, float u,
                                          TransportMode mode) const;
-  BsdfEval evaluate_lobes(std::span<const Lobe> lobes, const Directions& d) const;
+  void reshade(const Directions& d, BsdfEval& sum) const;
   void reshade_event(const Lobe& lobe, vec3 from, float u, TransportMode mode, vec3 to,
                      float probability, Rgb& color, float& other) const;
 

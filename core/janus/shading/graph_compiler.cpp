@@ -82,7 +82,7 @@ vec3 GraphCompiler::fold(const Operation& operation, const std::vector<Value>& o
     program.operands.push_back(static_cast<uint16_t>(3 * (i + 1)));
     std::copy_n(&x.x, 3, r + 3 * (i + 1));
   }
-  const ShadingPoint nowhere;
+  const ShadingPoint nowhere{};
   RunState frame{r, &nowhere, program};
   operation.kernel(frame, {operation.kernel, 0, data, 0, 0});
   return is_vector(operation.result) ? vec3(r[0], r[1], r[2]) : vec3(r[0]);

@@ -59,8 +59,8 @@ struct ClosureTraits {
   bool emits = false, transparent = false, transmits = false;
   int lobes = 0;  // at most
   // Which may make it dark, opaque or reflecting after all.
-  Input emission, alpha, transmission;
-  Input parts[2];  // each with a lobe
+  Input emission{}, alpha{}, transmission{};
+  Input parts[2]{};  // each with a lobe
 };
 
 // A closure node: adds to a result what its parameters say; `check` names what it leaves out, where

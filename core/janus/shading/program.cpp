@@ -12,6 +12,12 @@ Program::~Program() = default;
 Program::Program(Program&&) noexcept = default;
 Program& Program::operator=(Program&&) noexcept = default;
 
+void Program::execute(RunState state) const {
+  for (const Instruction& i : instructions) {
+    i.kernel(state, i);
+  }
+}
+
 void Program::run(const ShadingPoint& point, ShadingResult& result) const {
   place(point.ns, result);
   if (constant()) {
@@ -19,11 +25,11 @@ void Program::run(const ShadingPoint& point, ShadingResult& result) const {
   }
   float r[kMaxRegisters];
   std::copy(constants.begin(), constants.end(), r);
-  const ShadingPoint points[3] = {point, shifted ? point.shifted(0) : point,
-                                  shifted ? point.shifted(1) : point};
-  RunState frame{r, points, *this};
-  for (const Instruction& i : instructions) {
-    i.kernel(frame, i);
+  if (shifted) {
+    const ShadingPoint points[3] = {point, point.shifted(0), point.shifted(1)};
+    execute({r, points, *this});
+  } else {
+    execute({r, &point, *this});
   }
   const int placed = result.bsdf.size();
   for (const Closure& closure : closures) {

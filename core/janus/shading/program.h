@@ -99,6 +99,9 @@ class Program {
   }
 
   void run(const ShadingPoint& point, ShadingResult& result) const;
+
+ private:
+  void execute(RunState state) const;
 };
 
 // A point whose program depends on the view, to be run again for another one.

@@ -27,22 +27,23 @@ struct TriangleIndices {
   uint32_t vertices[3], corners[3], face;
 };
 
+// Not initialized: a walk carries room for one, and seldom needs it.
 struct ShadingPoint {
-  vec3 p = vec3(0.0f);                          // world
-  vec3 ng = vec3(0, 0, 1), ns = vec3(0, 0, 1);  // unit, front side
-  vec3 view = vec3(0, 0, 1);  // unit, to the side from which the surface is looked at
-  vec2 barycentric = vec2(0.0f);
-  TriangleIndices triangle{};
-  const ObjectData* object = nullptr;
+  vec3 p;       // world
+  vec3 ng, ns;  // unit, front side
+  vec3 view;    // unit, to the side from which the surface is looked at
+  vec2 barycentric;
+  TriangleIndices triangle;
+  const ObjectData* object;
   // By the program's slot; null where the mesh has none of that name.
-  const AttributeDesc* const* attributes = nullptr;
-  float material_index = 0.0f;
+  const AttributeDesc* const* attributes;
+  float material_index;
   // Edges of the triangle in the world, and how far the points lie that bump compares with: see
   // shifted().
-  vec3 edge_u = vec3(0.0f), edge_v = vec3(0.0f);
-  float footprint = 0.0f;  // metres
+  vec3 edge_u, edge_v;
+  float footprint;  // metres
   // The interpolated normal in object space, as long as it comes out: what tangents go with.
-  vec3 object_normal = vec3(0, 0, 1);
+  vec3 object_normal;
 
   bool backfacing() const { return dot(view, ng) < 0.0f; }
   // Cycles' normals look at the viewer.

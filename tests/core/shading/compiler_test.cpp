@@ -267,7 +267,7 @@ TEST(Compiler, SharesEqualSubgraphsAndDropsWhatNobodyReads) {
   EXPECT_TRUE(result.diagnostics.empty());
   // Position, its x, and the sum: one of each; y, z, the normal and the rest are not there.
   EXPECT_EQ(result.program.instructions.size(), 3u);
-  ShadingPoint point;
+  ShadingPoint point{};
   point.p = vec3(1.5f, 7, 8);
   ShadingResult shading;
   result.program.run(point, shading);
