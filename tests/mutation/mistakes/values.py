@@ -101,8 +101,8 @@ VALUES = (
         "camera walks through smooth glass gain it too",
         f"{PICTURES}:{BSDFS}",
         BSDF,
-        "Rgb weight = event->color / chosen;",
-        "Rgb weight = event->color / chosen * (radiance && event->transmitted ? eta2 : 1.0f);",
+        "Rgb weight = color / chosen;",
+        "Rgb weight = color / chosen * (radiance && event->transmitted ? eta2 : 1.0f);",
     ),
     one(
         "no-eta-squared-rough",
