@@ -254,6 +254,14 @@ def color_cases() -> None:
     def _(t):
         return t.out("Invert", {"Fac": t.parts()[0], "Color": t.color()})
 
+    for low, high in ((700.0, 2000.0), (1500.0, 13000.0)):
+
+        def build(t, low=low, high=high):
+            kelvin = t.out("MapRange", {"Value": t.parts()[0], "To Min": low, "To Max": high})
+            return t.out("Blackbody", {0: kelvin})
+
+        CASES[f"blackbody {low:.0f}"] = build
+
     @case("rgb to bw")
     def _(t):
         return t.out("RGBToBW", {0: t.color()})

@@ -13,6 +13,7 @@ std::span<const NodeDecl> math_nodes();
 std::span<const NodeDecl> mix_nodes();
 std::span<const NodeDecl> color_nodes();
 std::span<const NodeDecl> curve_nodes();
+std::span<const NodeDecl> blackbody_nodes();
 std::span<const NodeDecl> vector_nodes();
 std::span<const NodeDecl> input_nodes();
 std::span<const NodeDecl> texture_nodes();
