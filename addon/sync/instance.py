@@ -22,6 +22,7 @@ class InstanceSync:
         self._log = log
         self._poll = poll
         self._meshes = {}  # (address of the evaluated mesh, attributes) -> key; None: no faces
+        self._kinds = {}  # addresses of an object, its data and who shows it -> arguments
         self._checked = set()
         self._count = 0
 
@@ -44,21 +45,35 @@ class InstanceSync:
 
     def _surface(self, instance) -> None:
         obj = instance.object
+        owner = instance.parent if instance.is_instance else obj
+        # Instances may be a hundred thousand; what they have in common is read once.
+        kind = (obj.original.as_pointer(), obj.data.as_pointer(), owner.original.as_pointer())
+        if kind not in self._kinds:
+            self._kinds[kind] = self._arguments(instance)
+        arguments = self._kinds[kind]
+        if arguments is not None:
+            self._builder.set_instance(
+                self._next_key("instance"),
+                transform=np.array(instance.matrix_world, dtype=np.float64),
+                random=object_random(obj, instance.random_id),
+                **arguments,
+            )
+
+    def _arguments(self, instance) -> dict | None:
+        """Those of set_instance that all instances of a kind share; None: there are no faces."""
+        obj = instance.object
         materials = self._materials.keys(obj)
         mesh = self._mesh(obj, self._materials.attributes(materials))
         if mesh is None:
-            return
-        self._builder.set_instance(
-            self._next_key("instance"),
-            name=obj.name,
-            mesh=mesh,
-            transform=np.array(instance.matrix_world, dtype=np.float64),
-            materials=materials,
-            color=tuple(obj.color),
-            object_index=obj.pass_index,
-            random=object_random(obj, instance.random_id),
+            return None
+        return {
+            "name": obj.name,
+            "mesh": mesh,
+            "materials": materials,
+            "color": tuple(obj.color),
+            "object_index": obj.pass_index,
             **surface_seen_by(instance, self._view_layer),
-        )
+        }
 
     def _mesh(self, obj, attributes: frozenset[str]) -> str | None:
         """The key of the object's geometry, which is sent on first sight.
