@@ -34,7 +34,7 @@ float refraction_jacobian(vec3 wo, vec3 wi, vec3 n, float eta2_light_over_camera
     const LobeEval e = evaluate_lobe(lobe, ng, d);
     sum.f += e.f;
     if (!is_ggx(lobe.type)) {
-      sum.diffuse += average(e.f);
+      sum.diffuse += e.f;
     }
     sum.pdf_radiance += pmf(lobe, grazing_o) * e.pdf_radiance;
     sum.pdf_importance += pmf(lobe, grazing_i) * e.pdf_importance;
