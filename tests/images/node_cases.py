@@ -280,23 +280,17 @@ def color_cases() -> None:
             CASES[f"ramp {interpolation} {output}"] = build
 
     for extend in ("HORIZONTAL", "EXTRAPOLATED"):
+        for kind, socket, name in (
+            ("RGBCurve", "Color", "rgb"),
+            ("VectorCurve", "Vector", "vector"),
+        ):
 
-        def build(t, extend=extend):
-            node = t.node("RGBCurve", {"Fac": 0.7, "Color": t.vector()})
-            for i, curve in enumerate(node.mapping.curves):
-                curve.points.new(0.3 + 0.1 * i, 0.7 - 0.1 * i)
-            node.mapping.extend = extend
-            node.mapping.update()
-            return node.outputs[0]
+            def build(t, extend=extend, kind=kind, socket=socket):
+                node = t.node(kind, {"Fac": 0.7, socket: t.vector()})
+                for i, curve in enumerate(node.mapping.curves):
+                    curve.points.new(0.3 + 0.1 * i, 0.7 - 0.1 * i)
+                node.mapping.extend = extend
+                node.mapping.update()
+                return node.outputs[0]
 
-        CASES[f"rgb curves {extend}"] = build
-
-        def build(t, extend=extend):
-            node = t.node("VectorCurve", {"Fac": 0.7, "Vector": t.vector()})
-            for i, curve in enumerate(node.mapping.curves):
-                curve.points.new(0.3 + 0.1 * i, 0.7 - 0.1 * i)
-            node.mapping.extend = extend
-            node.mapping.update()
-            return node.outputs[0]
-
-        CASES[f"vector curves {extend}"] = build
+            CASES[f"{name} curves {extend}"] = build

@@ -4,12 +4,9 @@
 // the top along +z, and +y is to the left.
 #pragma once
 
-#include "janus/image/image.h"
 #include "janus/math/vec.h"
 
 namespace janus {
-
-enum class Interpolation { Linear, Closest, Cubic };
 
 // u and v in [0, 1] from the bottom left.
 vec2 direction_to_latlong(vec3 direction);
@@ -20,12 +17,5 @@ vec3 latlong_to_direction(double u, double z);
 
 // z of the directions with the given v.
 double latlong_z(double v);
-
-// The first three channels at (u, v). Repeats over all edges, also over the poles, as Cycles does.
-// `srgb`: the pixels are encoded; they are decoded after they are interpolated, as in Cycles.
-Rgb lookup(const Image& image, vec2 uv, Interpolation interpolation, bool srgb);
-
-// The sRGB decoding of IEC 61966-2-1.
-float srgb_to_linear(float x);
 
 }  // namespace janus

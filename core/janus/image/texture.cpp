@@ -37,6 +37,14 @@ void cubic_weights(float t, float* w) {
   w[3] = t * t * t / 6.0f;
 }
 
+// The sRGB decoding of IEC 61966-2-1.
+float srgb_to_linear(float x) {
+  if (x <= 0.04045f) {
+    return x / 12.92f;
+  }
+  return static_cast<float>(std::pow((static_cast<double>(x) + 0.055) / 1.055, 2.4));
+}
+
 }  // namespace
 
 vec4 Texture::lookup(vec2 uv) const {

@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "janus/image/image.h"
-#include "janus/image/latlong.h"
 #include "janus/math/vec.h"
 
 namespace janus {
 
+enum class Interpolation { Linear, Closest, Cubic };
 enum class Extension { Repeat, Extend, Clip, Mirror };
 
 struct Texture {

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/light/environment_map.h"
 
+#include "janus/image/latlong.h"
+
 namespace janus {
 
-EnvironmentMap::EnvironmentMap(std::shared_ptr<const Image> image, bool srgb,
+EnvironmentMap::EnvironmentMap(std::shared_ptr<const Image> picture, bool srgb,
                                Interpolation interpolation, Rgb scale, const mat3& to_image)
-    : image_(std::move(image)),
-      srgb_(srgb),
+    : texture_{std::move(picture), interpolation, Extension::Repeat, srgb},
       linear_(interpolation == Interpolation::Linear),
       scale_(scale),
       to_image_(to_image),
-      rows_(image_->height + (linear_ ? 1 : 0)),
-      columns_(image_->width) {
+      rows_(texture_.image->height + (linear_ ? 1 : 0)),
+      columns_(texture_.image->width) {
+  const Image& image = *texture_.image;
+  Texture pixels = texture_;
+  pixels.interpolation = Interpolation::Closest;
   const auto pixel = [&](int x, int y) {
-    const vec2 center = (vec2(x, y) + 0.5f) / vec2(columns_, image_->height);
-    const Rgb c = lookup(*image_, center, Interpolation::Closest, srgb_);
-    return luminance(scale_ * glm::max(c, Rgb(0.0f)));
+    return luminance(color(pixels, (vec2(x, y) + 0.5f) / vec2(columns_, image.height)));
   };
   const auto line = [&](int y) {
     std::vector<float> values(columns_);
@@ -26,9 +28,9 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const Image> image, bool srgb,
   };
   // With linear interpolation, row r lies between the lines r - 1 and r of pixels, and its column c
   // between the pixels c - 1 and c.
-  std::vector<float> rows, below = line(image_->height - 1), cells(columns_);
+  std::vector<float> rows, below = line(image.height - 1), cells(columns_);
   for (int r = 0; r < rows_; ++r) {
-    const std::vector<float> above = line(r % image_->height);
+    const std::vector<float> above = line(r % image.height);
     double sum = 0.0;
     for (int c = 0; c < columns_; ++c) {
       const int left = (c + columns_ - 1) % columns_;
@@ -44,7 +46,7 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const Image> image, bool srgb,
 }
 
 double EnvironmentMap::edge(int row) const {
-  return std::clamp((row - (linear_ ? 0.5 : 0.0)) / image_->height, 0.0, 1.0);
+  return std::clamp((row - (linear_ ? 0.5 : 0.0)) / texture_.image->height, 0.0, 1.0);
 }
 
 float EnvironmentMap::solid_angle(int row) const {
@@ -53,9 +55,11 @@ float EnvironmentMap::solid_angle(int row) const {
 }
 
 Rgb EnvironmentMap::radiance(vec3 direction) const {
-  const vec2 uv = direction_to_latlong(to_image_ * direction);
-  const auto interpolation = linear_ ? Interpolation::Linear : Interpolation::Closest;
-  return scale_ * glm::max(lookup(*image_, uv, interpolation, srgb_), Rgb(0.0f));
+  return color(texture_, direction_to_latlong(to_image_ * direction));
+}
+
+Rgb EnvironmentMap::color(const Texture& texture, vec2 uv) const {
+  return scale_ * glm::max(Rgb(texture.decode(texture.lookup(uv))), Rgb(0.0f));
 }
 
 vec3 EnvironmentMap::sample(vec2 u) const {
@@ -71,9 +75,9 @@ vec3 EnvironmentMap::sample(vec2 u) const {
 float EnvironmentMap::pdf_solid(vec3 direction) const {
   const vec2 uv = direction_to_latlong(to_image_ * direction);
   const float shift = linear_ ? 0.5f : 0.0f;
-  const int row =
-      std::clamp(static_cast<int>(std::floor(uv.y * static_cast<float>(image_->height) + shift)), 0,
-                 rows_ - 1);
+  const int row = std::clamp(
+      static_cast<int>(std::floor(uv.y * static_cast<float>(texture_.image->height) + shift)), 0,
+      rows_ - 1);
   const int column =
       static_cast<int>(std::floor(uv.x * static_cast<float>(columns_) + shift)) % columns_;
   const float pmf = row_.pmf(row);

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "janus/image/latlong.h"
+#include "janus/image/texture.h"
 #include "janus/math/discrete.h"
 
 namespace janus {
@@ -34,8 +34,11 @@ class EnvironmentMap {
   double edge(int row) const;  // v at the lower edge
   float solid_angle(int row) const;
 
-  std::shared_ptr<const Image> image_;
-  bool srgb_, linear_;
+  // The colour of a place in the picture, scaled.
+  Rgb color(const Texture& texture, vec2 uv) const;
+
+  Texture texture_;
+  bool linear_;
   Rgb scale_;
   mat3 to_image_;
   int rows_, columns_;

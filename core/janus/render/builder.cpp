@@ -149,8 +149,8 @@ class Commit {
       scene_.diagnostics.push_back(
           {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
     }
-    if (!is_black(program.emission)) {
-      add(make_environment_light(program.emission, surroundings()));
+    if (const Rgb radiance = everywhere(program, world.name); !is_black(radiance)) {
+      add(make_environment_light(radiance, surroundings()));
     }
   }
 
@@ -171,6 +171,16 @@ class Commit {
  private:
   void warn(const std::string& object, const std::string& message) {
     scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
+  }
+
+  // What the program of a lamp or a world emits, which should be the same everywhere.
+  Rgb everywhere(const Program& program, const std::string& name) {
+    if (!program.constant()) {
+      scene_.diagnostics.push_back({Severity::Warning, "", name, "",
+                                    "light that varies with place or direction is not supported "
+                                    "yet for lamps and worlds; it is left out"});
+    }
+    return program.emission;
   }
 
   uint32_t find_program(const std::string& instance, const std::string& material) {
@@ -195,7 +205,7 @@ class Commit {
     }
     Rgb strength(1.0f);
     if (lamp.graph) {
-      strength = compile(*lamp.graph, lamp.name, {}, scene_.diagnostics).emission;
+      strength = everywhere(compile(*lamp.graph, lamp.name, {}, scene_.diagnostics), lamp.name);
     }
     const Rgb power = lamp_power(lamp, strength);
     if (!janus::is_finite(power)) {

@@ -5,6 +5,8 @@
 #include <bit>
 #include <set>
 
+#include "janus/shading/point_reads.h"
+
 namespace janus {
 
 namespace {
@@ -14,11 +16,6 @@ constexpr Operation kAverage = pure<[](vec3 v) { return average(v); }>;
 // Cycles' weights, in their full length.
 constexpr Operation kLuminance =
     pure<[](vec3 c) { return dot(c, vec3(0.2126729f, 0.7151522f, 0.0721750f)); }>;
-
-constexpr Operation kNormal = by_side<[](const Context& c) { return c.point.facing(c.point.ns); }>;
-constexpr Operation kPosition = at_point<[](const Context& c) { return c.point.p; }>;
-constexpr Operation kAttribute =
-    at_point<[](const Context& c) { return vec3(c.point.attribute(c.data)); }>;
 
 }  // namespace
 
@@ -122,15 +119,11 @@ Value GraphCompiler::emit(const Operation& operation, const std::vector<Value>& 
 Value GraphCompiler::implicit(const SocketDecl& socket, uint16_t at) {
   switch (socket.implicit) {
     case Implicit::Normal:
-      return emit(kNormal, {}, 0, at);
+      return emit(kFacingNormal, {}, 0, at);
     case Implicit::Position:
       return emit(kPosition, {}, 0, at);
-    case Implicit::Generated:
-      return emit(kAttribute, {}, attribute("generated"), at);
     case Implicit::Uv:
       return emit(kAttribute, {}, attribute("uv:"), at);
-    case Implicit::Tangent:
-      return emit(kAttribute, {}, attribute("tangent:"), at);
     case Implicit::Value:
       break;
   }

@@ -31,8 +31,6 @@ class NodeEmitter {
   // The value of an input, of its declared type. `at`: for a shifted input, which point.
   Value input(std::string_view identifier, int at = 0);
   bool linked(std::string_view identifier) const { return reader_.link(identifier) != nullptr; }
-  // Nothing feeds it: not a link, not a value.
-  bool omitted(std::string_view identifier) const { return reader_.omitted(identifier); }
   // The value of an input that is a constant after folding.
   bool is_constant(Value value, float* x) const;
 
@@ -42,7 +40,6 @@ class NodeEmitter {
   bool flag(std::string_view name) const { return reader_.flag(name); }
   float number(std::string_view name) const { return reader_.number_property(name); }
   const std::vector<float>* list(std::string_view name) const { return reader_.list(name); }
-  const std::string& type() const { return reader_.node().type; }
 
   Value constant(float x);
   Value constant(vec3 x);

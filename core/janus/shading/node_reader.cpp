@@ -49,11 +49,6 @@ std::optional<vec4> NodeReader::value(std::string_view identifier) const {
   return std::nullopt;
 }
 
-bool NodeReader::is_number(std::string_view identifier) const {
-  const NodeInput* value = input(identifier);
-  return value && std::get_if<float>(value);
-}
-
 vec3 NodeReader::color(std::string_view identifier) const {
   const auto socket = std::find_if(decl_.inputs.begin(), decl_.inputs.end(),
                                    [&](const SocketDecl& s) { return s.identifier == identifier; });

@@ -27,7 +27,6 @@ class NodeReader {
   float number(std::string_view identifier) const { return color(identifier).x; }
   // The constant as it is written; nullopt: a link, omitted, or no number.
   std::optional<vec4> value(std::string_view identifier) const;
-  bool is_number(std::string_view identifier) const;  // one float, no vector
   // What is linked to an input; nullptr: nothing.
   const NodeLink* link(std::string_view identifier) const;
   // Neither a link nor a value.

@@ -23,12 +23,10 @@ constexpr bool is_vector(SocketType type) { return type != SocketType::Float; }
 
 // What an input without a link and without a value gets.
 enum class Implicit {
-  Value,      // the default of the declaration
-  Normal,     // the shading normal, on the viewer's side
-  Generated,  // texture coordinates over the object's box
-  Uv,         // the active UV map
+  Value,   // the default of the declaration
+  Normal,  // the shading normal, on the viewer's side
+  Uv,      // the active UV map
   Position,
-  Tangent,
 };
 
 struct SocketDecl {

@@ -33,7 +33,7 @@ void Program::run(const ShadingPoint& point, ShadingResult& result) const {
   }
   const int placed = result.bsdf.size();
   for (const Closure& closure : closures) {
-    if (r[closure.share] <= 0.0f) {
+    if (!(r[closure.share] > 0.0f)) {  // or not a number
       continue;
     }
     const uint16_t* in = operands.data() + closure.operands;

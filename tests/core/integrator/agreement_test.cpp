@@ -92,13 +92,7 @@ TEST_P(Agreement, AllIntegrators) {
   const auto& [name, make, light_tracing, count] = GetParam();
   const auto scene = make().build();
   EXPECT_TRUE(scene->diagnostics.empty());
-  const auto bdpt = quarters(scene, small_picture(IntegratorType::Bdpt, samples(count)));
-  const auto pt = quarters(scene, small_picture(IntegratorType::PathTracer, samples(3 * count)));
-  expect_agreement(bdpt, pt);
-  if (light_tracing) {
-    expect_agreement(bdpt,
-                     quarters(scene, small_picture(IntegratorType::LightTracer, samples(count))));
-  }
+  expect_integrators_agree(scene, count, light_tracing);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(kScenes),

@@ -249,5 +249,28 @@ TEST(Builder, WorldPictureFindings) {
   EXPECT_TRUE(SceneKit().world(black_hole, 0).build()->lights.empty());
 }
 
+// A lamp or a world whose light varies is not black without a word.
+TEST(Builder, NamesLightThatVaries) {
+  NodeGraph varying = emission(Rgb(1), 1);
+  varying.nodes[0].inputs["Color"] = link("Where", "Position");
+  varying.nodes.push_back(node("Where", "NEW_GEOMETRY", {}));
+  SceneKit kit;
+  LightDesc lamp = point_light({0, 0, 1}, 10);
+  lamp.name = "Lamp";
+  lamp.graph = varying;
+  kit.light("lamp", lamp);
+  WorldDesc world;
+  world.name = "World";
+  world.graph = varying;
+  kit.builder.set_world(world);
+  const auto scene = kit.build();
+  std::vector<std::string> named;
+  for (const Diagnostic& d : scene->diagnostics) {
+    EXPECT_NE(d.message.find("varies"), std::string::npos) << d.message;
+    named.push_back(d.material);
+  }
+  EXPECT_EQ(named, (std::vector<std::string>{"Lamp", "World"}));
+}
+
 }  // namespace
 }  // namespace janus::test

@@ -299,6 +299,26 @@ TEST(Compiler, CutsCyclesOfValues) {
   }));
 }
 
+// A number that is none mixes nothing in: no lobe is not finite.
+TEST(Compiler, SharesThatAreNoNumbersCountAsNone) {
+  NodeGraph graph = combine("MIX_SHADER", diffuse(Rgb(1)), mirror(Rgb(1)));
+  graph.nodes.push_back(node("Where", "NEW_GEOMETRY", {}));
+  graph.nodes.push_back(node("Split", "SEPXYZ", {{"Vector", link("Where", "Position")}}));
+  graph.nodes[2].inputs["Fac"] = link("Split", "X");
+  const Compiled result = compiled(graph);
+  ShadingPoint point{};
+  point.ns = point.ng = point.view = vec3(0, 0, 1);
+  ShadingResult shading;
+  for (const float x : {0.25f, NAN, INFINITY}) {
+    point.p.x = x;
+    result.program.run(point, shading);
+    EXPECT_EQ(shading.bsdf.size(), x == 0.25f ? 2 : std::isnan(x) ? 0 : 1) << x;
+    for (const Lobe& lobe : shading.bsdf.lobes()) {
+      EXPECT_TRUE(is_finite(lobe.weight));
+    }
+  }
+}
+
 // A colour is a number by its luminance, a vector by its mean, as in Blender.
 TEST(Compiler, SocketsConvert) {
   const auto strength = [](const std::string& type, const std::string& output) {

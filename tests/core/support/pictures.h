@@ -64,4 +64,17 @@ inline void expect_agreement(const std::vector<Mean>& a, const std::vector<Mean>
   }
 }
 
+// bdpt against pt, and against lt where that sees everything. `count`: samples of bdpt and lt in a
+// quick run; pt gets three times as many.
+inline void expect_integrators_agree(const std::shared_ptr<const Scene>& scene, int count,
+                                     bool light_tracing) {
+  const auto bdpt = quarters(scene, small_picture(IntegratorType::Bdpt, samples(count)));
+  expect_agreement(bdpt,
+                   quarters(scene, small_picture(IntegratorType::PathTracer, samples(3 * count))));
+  if (light_tracing) {
+    expect_agreement(bdpt,
+                     quarters(scene, small_picture(IntegratorType::LightTracer, samples(count))));
+  }
+}
+
 }  // namespace janus::test

@@ -7,5 +7,6 @@ from mistakes.densities import DENSITIES
 from mistakes.film import FILM_AND_SAMPLES
 from mistakes.paths import PATHS
 from mistakes.values import VALUES
+from mistakes.views import VIEWS
 
-MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES
+MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS

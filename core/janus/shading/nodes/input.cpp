@@ -8,6 +8,7 @@
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/families.h"
 #include "janus/shading/nodes/rotation.h"
+#include "janus/shading/point_reads.h"
 
 namespace janus {
 
@@ -15,12 +16,8 @@ namespace {
 
 using enum SocketType;
 
-constexpr Operation kPosition = at_point<[](const Context& c) { return c.point.p; }>;
-constexpr Operation kNormal = by_side<[](const Context& c) { return c.point.facing(c.point.ns); }>;
 constexpr Operation kTrueNormal =
     by_side<[](const Context& c) { return c.point.facing(c.point.ng); }>;
-constexpr Operation kAttribute =
-    at_point<[](const Context& c) { return vec3(c.point.attribute(c.data)); }>;
 constexpr Operation kAttributeAlpha =
     at_point<[](const Context& c) { return c.point.attribute(c.data).w; }>;
 constexpr Operation kAttributeFactor =
@@ -120,7 +117,7 @@ constexpr Operation kSphericalTangent = by_side<[](const Context& c, vec3 genera
 
 void emit_geometry(NodeEmitter& e) {
   e.output("Position", e.emit(kPosition, {}));
-  e.output("Normal", e.emit(kNormal, {}));
+  e.output("Normal", e.emit(kFacingNormal, {}));
   e.output("Tangent",
            e.emit(kSphericalTangent, {e.emit(kAttribute, {}, e.attribute("generated"))}));
   e.output("True Normal", e.emit(kTrueNormal, {}));

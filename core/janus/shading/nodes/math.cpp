@@ -75,8 +75,6 @@ const MathMode kMathModes[] = {
     {"DEGREES", pure<[](float a) { return a * (180.0f / kPi); }>},
 };
 
-constexpr Operation kClamp01 = pure<[](float a) { return std::clamp(a, 0.0f, 1.0f); }>;
-
 void emit_math(NodeEmitter& e) {
   const std::string name = e.property("operation", "ADD");
   const auto mode = std::find_if(std::begin(kMathModes), std::end(kMathModes),
@@ -91,7 +89,7 @@ void emit_math(NodeEmitter& e) {
   const Value a = e.input("Value");
   const Value b = count > 1 ? e.input("Value_001") : a, c = count > 2 ? e.input("Value_002") : a;
   const Value result = e.emit(mode->operation, {a, b, c});
-  e.output("Value", e.flag("use_clamp") ? e.emit(kClamp01, {result}) : result);
+  e.output("Value", e.flag("use_clamp") ? e.emit(pure<&clamp01>, {result}) : result);
 }
 
 // --- Clamp ---------------------------------------------------------------------------------------

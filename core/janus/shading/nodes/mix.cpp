@@ -7,6 +7,7 @@
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/color_space.h"
 #include "janus/shading/nodes/families.h"
+#include "janus/shading/nodes/scalar.h"
 
 namespace janus {
 
@@ -120,7 +121,6 @@ const BlendMode kBlendModes[] = {
     {"VALUE", pure<&blend_value>},
 };
 
-constexpr Operation kClampNumber = pure<[](float a) { return std::clamp(a, 0.0f, 1.0f); }>;
 constexpr Operation kClampVector = pure<[](vec3 a) { return glm::clamp(a, 0.0f, 1.0f); }>;
 constexpr Operation kMixNumbers =
     pure<[](float t, float a, float b) { return a * (1.0f - t) + b * t; }>;
@@ -153,7 +153,7 @@ void emit_mix(NodeEmitter& e) {
     return;
   }
   Value t = e.input("Factor_Float");
-  t = clamp ? e.emit(kClampNumber, {t}) : t;
+  t = clamp ? e.emit(pure<&clamp01>, {t}) : t;
   if (type == "FLOAT") {
     e.output("Result_Float", e.emit(kMixNumbers, {t, e.input("A_Float"), e.input("B_Float")}));
   } else if (type == "VECTOR") {
@@ -174,7 +174,7 @@ constexpr SocketDecl kLegacyInputs[] = {
 constexpr std::string_view kLegacyOutputs[] = {"Color"};
 
 void emit_legacy_mix(NodeEmitter& e) {
-  const Value t = e.emit(kClampNumber, {e.input("Fac")});
+  const Value t = e.emit(pure<&clamp01>, {e.input("Fac")});
   const Value c = blend(e, t, e.input("Color1"), e.input("Color2"));
   e.output("Color", e.flag("use_clamp") ? e.convert(e.emit(kClampVector, {c}), Color) : c);
 }

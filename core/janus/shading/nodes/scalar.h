@@ -8,6 +8,8 @@
 
 namespace janus {
 
+inline float clamp01(float x) { return std::clamp(x, 0.0f, 1.0f); }
+
 inline float safe_divide(float a, float b) { return b != 0.0f ? a / b : 0.0f; }
 
 // Negative bases have whole powers only.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "janus/image/latlong.h"
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/families.h"
 #include "janus/shading/nodes/rotation.h"
