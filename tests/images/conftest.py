@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
+import functools
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -90,5 +93,23 @@ def captured(tmp_path_factory):
             )
             made[name] = Captured(path)
         return made[name]
+
+    return get
+
+
+def made_by_both(cases: ModuleType, folder: Path, timeout: float = 600.0) -> Callable:
+    """Runs both.py on a module of cases: get(case) -> (our capture, Cycles' pictures)."""
+    from janus_core import exr
+
+    program = Path(__file__).with_name("both.py")
+    command = [sys.executable, str(program), cases.__name__.rpartition(".")[2], str(folder)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=timeout)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+    @functools.lru_cache(maxsize=2)
+    def get(case: str) -> tuple[Captured, list[np.ndarray]]:
+        seeds = range(1, cases.SEEDS + 1)
+        cycles = [exr.read(folder / f"{case}-{seed}.exr")[0] for seed in seeds]
+        return Captured(folder / f"{case}.npz"), cycles
 
     return get

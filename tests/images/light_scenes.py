@@ -1,18 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A floor and a block under one light, for each kind of light: pictures by Cycles, and captures.
-
-`python light_scenes.py FOLDER` writes FOLDER/CASE.npz (a capture) and FOLDER/CASE_N.exr (Cycles,
-with seed N). One process makes them all, since starting Blender takes longer than such a picture.
-"""
+"""Cases for both.py: a floor and a block under one light, for each kind of light."""
 
 from __future__ import annotations
 
 import math
-import os
-import sys
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
 SIZE, SEEDS = 24, 4
 
 # Name: the arguments of a light object (`lamp`), or of a world of a picture (`sky`). There is no
@@ -54,6 +46,7 @@ SKIES = {
     "sky_missing": dict(missing=True),
 }
 CASES = [*LIGHTS, *SKIES]
+WARNED = ["sky_missing"]
 
 
 def samples(name: str) -> int:
@@ -122,12 +115,10 @@ def sky(
 
 
 def build(name: str):
-    """The scene of one case in a fresh file."""
     import bpy
 
     from scenes import kit
 
-    bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     kit.neutral_settings(scene, SIZE, SIZE, samples(name))
     kit.world(scene)
@@ -136,45 +127,10 @@ def build(name: str):
     kit.quad(scene, "Floor", corners, white)
     kit.box(scene, "Block", (0.5, 0.4, 0.6), white).rotation_euler = (0, 0, 0.4)
     kit.camera(scene, (0.0, -4.0, 3.2), (0.0, 0.1, 0.1), lens=55.0)
+    for kind in ("max", "diffuse", "glossy", "transmission"):
+        setattr(scene.cycles, f"{kind}_bounces", 1)
     if name in LIGHTS:
         lamp(scene, **LIGHTS[name])
     else:
         sky(scene, **SKIES[name])
     return scene
-
-
-def main(folder: Path, names: list[str]) -> None:
-    import bpy
-
-    from scenes.driver import addon as addons
-
-    addon = addons.load()
-    for name in names:
-        scene = build(name)
-        scene.render.image_settings.file_format = "OPEN_EXR"
-        scene.render.image_settings.color_depth = "32"
-        scene.render.threads_mode, scene.render.threads = "FIXED", 2
-        scene.render.engine = "CYCLES"
-        for kind in ("max", "diffuse", "glossy", "transmission"):
-            setattr(scene.cycles, f"{kind}_bounces", 1)
-        for seed in range(1, SEEDS + 1):
-            scene.cycles.seed = seed
-            scene.render.filepath = str(folder / f"{name}_{seed}.exr")
-            bpy.ops.render.render(write_still=True)
-        scene.render.engine = addons.ENGINE
-        scene.janus.samples, scene.janus.max_bounces = 1, 1
-        scene.janus.capture_path = str(folder / f"{name}.npz")
-        bpy.ops.render.render()
-        for entry, _ in addon.part("report").kept(scene.name_full):
-            if entry.severity != "INFO":
-                print(f"{name}: {entry}", file=sys.stderr)
-        scene.render.engine = "CYCLES"
-    addon.unload()
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(0)  # Blender's own exit can crash
-
-
-if __name__ == "__main__":
-    sys.path.insert(0, str(ROOT))
-    main(Path(sys.argv[1]), sys.argv[2:] or CASES)

@@ -1,18 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One room under the rules for whole paths: pictures by Cycles, and captures.
-
-`python rules_scenes.py FOLDER [CASE...]` writes FOLDER/CASE.npz (a capture) and FOLDER/CASE_N.exr
-(Cycles, with seed N). One process makes them all.
-"""
+"""Cases for both.py: one room under the rules for whole paths."""
 
 from __future__ import annotations
 
-import contextlib
-import os
-import sys
-from pathlib import Path
-
-ROOT = Path(__file__).resolve().parents[2]
 SIZE, SEEDS, SAMPLES, BOUNCES = 24, 6, 256, 5
 KINDS = ("diffuse", "glossy", "transmission")
 
@@ -33,11 +23,6 @@ LAMP = {
     "lamp_bounces_1": ("cycles.max_bounces", 1),
 }
 CASES = [*CAPS, *HIDDEN, *LAMP]
-
-
-def limits(name: str) -> dict[str, int]:
-    """The settings of Janus that belong to a case."""
-    return {f"max_{kind}_bounces": limit for kind, limit in CAPS.get(name, {}).items()}
 
 
 def room(scene) -> None:
@@ -113,12 +98,10 @@ def hide(scene, thing: str, ray: str) -> None:
 
 
 def build(name: str):
-    """The scene of one case in a fresh file."""
     import bpy
 
     from scenes import kit
 
-    bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     kit.neutral_settings(scene, SIZE, SIZE, SAMPLES)
     kit.world(scene)
@@ -136,39 +119,3 @@ def build(name: str):
         setattr(scene.cycles, f"{kind}_bounces", CAPS.get(name, {}).get(kind, 1024))
     scene.cycles.max_bounces = BOUNCES
     return scene
-
-
-def main(folder: Path, names: list[str]) -> None:
-    import bpy
-
-    from scenes.driver import addon as addons
-
-    addon = addons.load()
-    for name in names:
-        scene = build(name)
-        scene.render.image_settings.file_format = "OPEN_EXR"
-        scene.render.image_settings.color_depth = "32"
-        scene.render.threads_mode, scene.render.threads = "FIXED", 2
-        scene.render.engine = "CYCLES"
-        for seed in range(1, SEEDS + 1):
-            scene.cycles.seed = seed
-            scene.render.filepath = str(folder / f"{name}_{seed}.exr")
-            bpy.ops.render.render(write_still=True)
-        scene.render.engine = addons.ENGINE
-        scene.janus.samples, scene.janus.max_bounces = 1, BOUNCES
-        scene.janus.capture_path = str(folder / f"{name}.npz")
-        bpy.ops.render.render()
-        for entry, _ in addon.part("report").kept(scene.name_full):
-            if entry.severity != "INFO":
-                print(f"{name}: {entry}", file=sys.stderr)
-        scene.render.engine = "CYCLES"
-    with contextlib.suppress(Exception):
-        addon.unload()
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(0)  # Blender's own exit can crash
-
-
-if __name__ == "__main__":
-    sys.path.insert(0, str(ROOT))
-    main(Path(sys.argv[1]), sys.argv[2:] or CASES)

@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Transparent closures and alpha against Cycles': a wall of panes, each in a block of its own."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
-from janus_core import exr
 
 from . import pane_scenes
-from .conftest import Captured
+from .conftest import made_by_both
 from .statistics import block_means, compare
 
 CELL = 12  # pixels of a pane's block, as in scenes/panes.py
@@ -18,18 +14,7 @@ TOLERANCE = 0.005
 
 @pytest.fixture(scope="module")
 def pictures(tmp_path_factory):
-    """pictures(case) -> (our capture, Cycles' pictures)."""
-    folder = tmp_path_factory.mktemp("panes")
-    command = [sys.executable, pane_scenes.__file__, str(folder), "256"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stdout + done.stderr
-    ours = {case: Captured(folder / f"{case}.npz") for case in pane_scenes.CASES}
-
-    def get(case: str):
-        seeds = range(1, pane_scenes.SEEDS + 1)
-        return ours[case], [exr.read(folder / f"{case}-{seed}.exr")[0] for seed in seeds]
-
-    return get
+    return made_by_both(pane_scenes, tmp_path_factory.mktemp("panes"))
 
 
 def in_per_cent(ours: list, cycles: list) -> np.ndarray:

@@ -1,19 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run as a script with bpy: one scene with depth, seen by every kind of camera.
-
-    camera_scene.py FOLDER SEEDS SAMPLES
-
-writes FOLDER/CASE.npz (a capture of Janus) and FOLDER/CASE-SEED.exr (Cycles) for each of CASES.
-"""
+"""Cases for both.py: one scene with depth, seen by every kind of camera."""
 
 from __future__ import annotations
 
-import argparse
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-
+SEEDS, SAMPLES = 4, 64
 # With bounces left out the pictures differ by the camera alone, and have little noise.
 BOUNCES = 1
 
@@ -64,12 +54,16 @@ CASES = {
 }
 
 
-def build(scene) -> None:
+def build(case: str):
     """A room of 6 x 8 x 3 m with blocks at several depths and a lamp that the camera passes by."""
+    import bpy
+
     from scenes import kit
 
-    kit.clear(scene)
-    kit.neutral_settings(scene, 48, 32)
+    scene = bpy.context.scene
+    kit.neutral_settings(scene, 48, 32, SAMPLES)
+    for kind in ("max", "diffuse", "glossy", "transmission"):
+        setattr(scene.cycles, f"{kind}_bounces", BOUNCES)
     kit.world(scene)
     room = kit.box(scene, "Room", (6, 8, 3), kit.diffuse("Wall", (0.7, 0.65, 0.6)))
     room.location = (0.3, 1.5, -0.2)
@@ -83,6 +77,8 @@ def build(scene) -> None:
     behind.location = (-0.8, -2.3, 0.1)
     kit.area_light(scene, "Lamp", (0.5, 0.8, 2.5), (0.2, 1.0, 0.0), (1.5, 1.0), 60.0)
     kit.camera(scene, (-0.2, -1.6, 1.3), (0.2, 2.0, 0.8), lens=24.0)
+    change(scene, CASES[case])
+    return scene
 
 
 def change(scene, settings: dict) -> None:
@@ -100,43 +96,3 @@ def change(scene, settings: dict) -> None:
             continue
         owner = next(o for o in (dof, data, panorama, scene.render) if hasattr(o, name))
         setattr(owner, name, value)
-
-
-def main(folder: Path, seeds: int, samples: int) -> int:
-    import bpy
-
-    from scenes.driver import addon as addons
-    from scenes.driver import picture, setup
-
-    defaults = {"output": folder / "x.exr", "resolution": None, "threads": None, "frame": None}
-    defaults |= dict.fromkeys(("seconds", "integrator", "filter", "capture"))
-    for name, settings in CASES.items():
-        bpy.ops.wm.read_factory_settings(use_empty=True)
-        addon = addons.load()
-        try:
-            scene = bpy.context.scene
-            build(scene)
-            change(scene, settings)
-            arguments = defaults | {"samples": 1, "seed": 0, "max_bounces": BOUNCES}
-            arguments |= {"engine": "janus", "capture": folder / f"{name}.npz"}
-            setup.apply(scene, argparse.Namespace(**arguments))
-            bpy.ops.render.render()
-        finally:
-            addon.unload()
-        for seed in range(seeds):
-            arguments |= {"engine": "cycles", "samples": samples, "seed": seed + 1}
-            setup.apply(scene, argparse.Namespace(**arguments))
-            bpy.ops.render.render()
-            picture.save(scene, folder / f"{name}-{seed}.exr")
-    return 0
-
-
-if __name__ == "__main__":
-    from scenes.driver import run
-
-    code = 1
-    try:
-        code = main(Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]))
-    except BaseException as error:
-        print(f"{type(error).__name__}: {error}", file=sys.stderr)
-    run.leave(code)
