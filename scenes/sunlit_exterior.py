@@ -37,7 +37,8 @@ def house(scene: bpy.types.Scene) -> None:
     for x0, x1, z0, z1 in windows:
         x, width, tall = (x0 + x1) / 2 - LENGTH / 2, x1 - x0, z1 - z0
         props.block(scene, "Pane", (width, 0.02, tall), glazing, (x, 0.20, z0), 0.0, 0.001)
-        props.block(scene, "Sill", (width + 0.16, 0.2, 0.06), white, (x, 0.0, z0 - 0.06))
+        # A little above the edge of the opening: what lies in one plane fights for the ray.
+        props.block(scene, "Sill", (width + 0.16, 0.2, 0.064), white, (x, 0.0, z0 - 0.06))
         for offset in (0.035 - width / 2, 0.0, width / 2 - 0.035):
             props.block(scene, "Stile", (0.06, 0.06, tall), white, (x + offset, 0.16, z0))
         for level in (0.0, 0.6 * tall, tall - 0.06):

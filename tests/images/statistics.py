@@ -128,6 +128,7 @@ class Comparison:
     t: float  # and its t
     level: float  # a p-value below it is a significant difference
     tests: int
+    left_out: tuple[int, ...] = ()  # blocks that were too noisy to be tested
 
     @property
     def significant(self) -> bool:
@@ -148,6 +149,7 @@ class Comparison:
             f"mean differs by {100 * self.difference:+.3f} % (standard error "
             f"{100 * self.error:.3f} %); the worst of {self.tests} tests is {self.where}: "
             f"t = {self.t:+.2f}, p = {self.p:.2g}, significant below {self.level:.2g}"
+            + (f"; too noisy: blocks {self.left_out}" if self.left_out else "")
         )
 
 
@@ -157,23 +159,27 @@ def compare(
     block: int,
     mask: np.ndarray | None = None,
     alpha: float = ALPHA,
+    noisy: float | None = None,
 ) -> Comparison:
     """Compares the expectations of two sets of pictures, one picture per seed, [H, W, 3 or 4].
 
     Tests the mean over each block (all channels together) and of each channel over the whole
-    picture. The seeds of all pictures must be different and the pictures of one set alike.
+    picture. The seeds of all pictures must be different and the pictures of one set alike. Blocks
+    whose relative standard error in `b` is above `noisy` are not tested: their means are not normal.
     """
     means_a = np.array([block_means(image, block, mask) for image in a])
     means_b = np.array([block_means(image, block, mask) for image in b])
     if not np.isfinite(means_a).all() or not np.isfinite(means_b).all():
         raise ValueError("a picture holds a value that is not finite")
     whole_a, whole_b = means_a.mean(axis=1), means_b.mean(axis=1)
-    series_a = np.concatenate([means_a.mean(axis=2), whole_a], axis=1)
-    series_b = np.concatenate([means_b.mean(axis=2), whole_b], axis=1)
+    blocks_a, blocks_b = means_a.mean(axis=2), means_b.mean(axis=2)
+    spread = blocks_b.std(axis=0, ddof=1) / math.sqrt(len(b))
+    tested = spread <= (math.inf if noisy is None else noisy) * blocks_b.mean(axis=0)
+    series_a = np.concatenate([blocks_a[:, tested], whole_a], axis=1)
+    series_b = np.concatenate([blocks_b[:, tested], whole_b], axis=1)
     t, p = welch(series_a, series_b)
     worst = int(p.argmin())
-    blocks = means_a.shape[1]
-    names = [f"block {i}" for i in range(blocks)] + ["all red", "all green", "all blue"]
+    names = [f"block {i}" for i in np.flatnonzero(tested)] + ["all red", "all green", "all blue"]
     total_a, total_b = whole_a.mean(axis=1), whole_b.mean(axis=1)
     scatter = total_a.var(ddof=1) / len(a) + total_b.var(ddof=1) / len(b)
     reference = total_b.mean()
@@ -186,4 +192,5 @@ def compare(
         t=float(t[worst]),
         level=sidak(alpha, len(p)),
         tests=len(p),
+        left_out=tuple(int(i) for i in np.flatnonzero(~tested)),
     )

@@ -106,3 +106,14 @@ def test_black_and_constant_pictures():
     assert p[0] == 1.0
     with pytest.raises(ValueError, match="finite"):
         compare(grey, [g * np.nan for g in black], block=8)
+
+
+def test_noisy_blocks_are_named_and_not_tested():
+    rng = np.random.default_rng(5)
+    a, b = pictures(rng), pictures(rng)
+    for picture in b:
+        picture[:8, :8] *= rng.exponential()
+    found = compare(a, b, block=8, noisy=0.1)
+    assert found.left_out == (0,)
+    assert not found.significant
+    assert compare(a, b, block=8).left_out == ()

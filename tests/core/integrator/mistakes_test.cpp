@@ -89,5 +89,16 @@ TEST(Mistakes, ManyLargeLights) {
   expect_as_path_traced(kit, small_picture(IntegratorType::Bdpt, samples(32)), 96);
 }
 
+// Lamps of no size on both sides of a leaf: the path tracer has next event estimation alone to see
+// those behind it, so the choice of the lamp must not leave them out.
+TEST(Mistakes, LampsBehindALeaf) {
+  SceneKit kit;
+  kit.add("leaf", plane(0.9f, 0.9f), single("BSDF_TRANSLUCENT", {}), rotation({1, 0, 0}, 1.5708f))
+      .light("before", point_light({0.3f, -0.8f, 0.2f}, 10))
+      .light("behind", point_light({-0.3f, 0.6f, 0.1f}, 20))
+      .camera({0, -2, 0}, {0, 0, 0}, 0.4f);
+  expect_as_path_traced(kit, small_picture(IntegratorType::Bdpt, samples(32)), 96);
+}
+
 }  // namespace
 }  // namespace janus::test
