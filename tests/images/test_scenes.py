@@ -46,4 +46,4 @@ def test_parity(pictures, scene):
     print(f"{scene}, bdpt against Cycles: {found}")
     blocks = -(-case.width // BLOCK) * -(-case.height // BLOCK)
     assert len(found.left_out) <= MANY * blocks
-    found.check(0.005, case.error)
+    found.check(0.005, 0.0025)
