@@ -131,9 +131,10 @@ def build(name: str):
         outer, inner = (bpy.data.collections.new(n) for n in ("Outer", "Inner"))
         scene.collection.children.link(outer)
         outer.children.link(inner)
-        for held in case["collection"]:
+        for held, collection in zip(case["collection"], (outer, inner), strict=True):
             scene.collection.objects.unlink(scene.objects[held])
-            inner.objects.link(bpy.data.objects[held])
+            collection.objects.link(bpy.data.objects[held])
+        # Those in it are held, those in collections inside are not.
         scene.view_layers[0].layer_collection.children["Outer"].holdout = True
     for obj in case.get("closure", ()):
         with_holes(scene, obj)
