@@ -51,7 +51,9 @@ def stage(scene, mirror: bool = False) -> None:
     glossy = kit.shader("Metal", "BsdfAnisotropic", "GGX", Color=(0.9, 0.8, 0.6, 1), Roughness=0.4)
     kit.sphere(scene, "Ball", 0.35, glossy, 32).location = (0.5, -0.3, 0.4)
     glow = kit.emission("Glow", (1.0, 0.6, 0.3), 3.0)
-    kit.quad(scene, "Glow", [(0.2, 0.8, 0.5), (1.2, 0.8, 0.5), (1.2, 0.9, 1.2), (0.2, 0.9, 1.2)], glow)
+    kit.quad(
+        scene, "Glow", [(0.2, 0.8, 0.5), (1.2, 0.8, 0.5), (1.2, 0.9, 1.2), (0.2, 0.9, 1.2)], glow
+    )
     leaf = kit.combined(
         "Leaf",
         "MixShader",
@@ -59,7 +61,10 @@ def stage(scene, mirror: bool = False) -> None:
         kit.shader("Through", "BsdfTransparent", Color=(0.9, 0.7, 0.8, 1.0)),
     )
     kit.quad(
-        scene, "Leaf", [(-1.2, -0.7, 0.3), (0.0, -0.7, 0.3), (0.0, -0.6, 1.2), (-1.2, -0.6, 1.2)], leaf
+        scene,
+        "Leaf",
+        [(-1.2, -0.7, 0.3), (0.0, -0.7, 0.3), (0.0, -0.6, 1.2), (-1.2, -0.6, 1.2)],
+        leaf,
     )
     wall = kit.shader("Mirror", "BsdfAnisotropic", "GGX", Roughness=0.0) if mirror else glossy
     side = [(-1.5, -1.5, 0), (-1.5, 1.5, 0), (-1.5, 1.5, 2.0), (-1.5, -1.5, 2.0)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cases for both.py: scenes of scenes/, small, with as many samples as their noise in Cycles needs."""
+"""Cases for both.py: scenes of scenes/, small, with as many samples as Cycles' noise needs."""
 
 from __future__ import annotations
 

@@ -240,9 +240,8 @@ class PathTracer final : public PassIntegrator {
       const BsdfView bsdf = shading.bsdf.view(hit->ng);
       sampler.start_block(walk.edges);
       if (bsdf.connectible() && scene.light_sampler.illuminates()) {
-        sum += settings_.clamp(
-            walk.beta * direct(*hit, bsdf, wo, walk, sampler, counters),
-            walk.edges + 1);
+        sum += settings_.clamp(walk.beta * direct(*hit, bsdf, wo, walk, sampler, counters),
+                               walk.edges + 1);
       }
 
       const float u_lobe = sampler.next_1d();

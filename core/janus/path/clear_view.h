@@ -28,8 +28,8 @@ inline bool holds_out(const Scene& scene, const PathVertex& v) {
 inline float hole(const Scene& scene, const SurfaceInteraction& hit, Rgb beta, bool& ends,
                   ShadingResult& shading) {
   const bool object = scene.instances[hit.instance].holdout;
-  const float share = average(beta * (object ? Rgb(1.0f) - shading.transparency
-                                             : Rgb(shading.holdout)));
+  const float share =
+      average(beta * (object ? Rgb(1.0f) - shading.transparency : Rgb(shading.holdout)));
   ends = object || shading.holdout >= 1.0f;
   if (ends) {
     shading.bsdf.clear();

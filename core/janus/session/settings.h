@@ -32,7 +32,7 @@ struct RenderSettings {
   float connections = 1.0f;      // per camera vertex
   bool adaptive_counts = false;  // bdpt: IntegratorSettings::adaptive_counts
   Heuristic heuristic = Heuristic::Balance;
-  float film_exposure = 1.0f;    // a factor of the finished picture's colour
+  float film_exposure = 1.0f;  // a factor of the finished picture's colour
   bool film_transparent = false;
   // On a transparent film: the world is not seen through glass of up to this roughness either.
   bool film_transparent_glass = false;

@@ -95,10 +95,7 @@ class Scene:
 
 @final
 class SceneBuilder:
-    """Collects a scene description. Keys are the caller's; setting a key again replaces the item.
-
-    All data is copied.
-    """
+    """Collects a scene description, which is copied. Setting a key again replaces the item."""
 
     def __init__(self) -> None: ...
     def set_mesh(
@@ -180,8 +177,7 @@ class SceneBuilder:
         """Places the mesh with the key `mesh` in the world.
 
         transform: float[4, 4], object to world. materials: a key for each slot, or None for the
-        default surface. visible_*: the rays that meet it, as in Blender. holdout: it leaves a hole
-        in the picture where the camera sees it.
+        default surface. visible_*: the rays that meet it; holdout: a hole where the camera sees it.
         """
     def set_light(
         self,
@@ -392,9 +388,7 @@ class RenderSettings:
 @final
 class RenderSession:
     """One render, on threads of its own that never run Python. Dropping it cancels it.
-
-    Methods may be called from any thread.
-    """
+    Methods may be called from any thread."""
 
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def start(self) -> None:

@@ -19,9 +19,8 @@ NodeGraph holdout() {
 }
 NodeGraph transparent(Rgb color) { return single("BSDF_TRANSPARENT", {{"Color", vec4(color, 1)}}); }
 NodeGraph refraction(float roughness, float ior = 1.7f) {
-  return single("BSDF_REFRACTION", {{"Color", vec4(0.9f, 0.95f, 1, 1)},
-                                    {"Roughness", roughness},
-                                    {"IOR", ior}});
+  return single("BSDF_REFRACTION",
+                {{"Color", vec4(0.9f, 0.95f, 1, 1)}, {"Roughness", roughness}, {"IOR", ior}});
 }
 NodeGraph mixed(const NodeGraph& a, const NodeGraph& b, float factor = 0.5f) {
   return combine("MIX_SHADER", a, b, factor);
@@ -122,7 +121,7 @@ SceneKit panes() {
            upright(1.5f, {0.4f, 0, -0.4f}), kAllRays, true)
       .add("floor", plane(3, 3), diffuse(Rgb(0.6f)), translation({0, 0.4f, -1.4f}))
       .world(sky())
-      .light("sun", sun_light({0.3f, 1, 0.5f}, 1.0f, 1.5f));
+      .light("sun", sun_light({0.3f, -1, 0.5f}, 2.0f, 1.5f));
 }
 
 // Smooth glass, too: a lens before a wall that is lit, and the sky.
@@ -186,7 +185,7 @@ TEST(ClearViewTechniques, AgreeForEachPathLength) {
         continue;
       }
       SCOPED_TRACE(::testing::Message() << "s = " << s << ", t = " << edges + 1 - s);
-      expect_agreement(of(s, edges + 1 - s, 384), reference, 0.1);
+      expect_agreement(of(s, edges + 1 - s, 384), reference, 0.15);
     }
   }
 }
@@ -237,11 +236,12 @@ TEST_P(KnownAnswerOfClearViews, HoldoutsLeaveHoles) {
 TEST_P(KnownAnswerOfClearViews, OthersSeeHoldoutsAsTheyAre) {
   // A floor that nothing but a held wall shines on.
   const auto floor = [](bool held) {
-    const auto kit = SceneKit()
-                         .add("wall", plane(3, 3), emission(Rgb(1), 1), upright(1.5f), kAllRays, held)
-                         .add("floor", plane(2, 2), diffuse(Rgb(0.8f)), translation({0, 0, -0.5f}))
-                         .camera({0, 0, 3}, {0, 0, -0.5f}, 0.2f)
-                         .build();
+    const auto kit =
+        SceneKit()
+            .add("wall", plane(3, 3), emission(Rgb(1), 1), upright(1.5f), kAllRays, held)
+            .add("floor", plane(2, 2), diffuse(Rgb(0.8f)), translation({0, 0, -0.5f}))
+            .camera({0, 0, 3}, {0, 0, -0.5f}, 0.2f)
+            .build();
     return quarters(kit, small_picture(GetParam(), samples(64)), 4)[0].mean();
   };
   EXPECT_NEAR(floor(true), floor(false), 0.01 * floor(false));
@@ -285,11 +285,11 @@ TEST(KnownAnswer, ATransparentFilmShowsTheSun) {
 // --- Exposure ------------------------------------------------------------------------------------
 
 TEST(KnownAnswer, ExposureActsOnTheFinishedColor) {
-  const auto scene = room()
-                         .add("half", plane(0.5f, 0.5f), mixed(diffuse(Rgb(0.5f)), holdout()),
-                              upright(-0.8f))
-                         .light("l", area_light({0.2f, -0.4f, 0.9f}, {0, 0, -0.5f}, 0.5f, 20))
-                         .build();
+  const auto scene =
+      room()
+          .add("half", plane(0.5f, 0.5f), mixed(diffuse(Rgb(0.5f)), holdout()), upright(-0.8f))
+          .light("l", area_light({0.2f, -0.4f, 0.9f}, {0, 0, -0.5f}, 0.5f, 20))
+          .build();
   for (const IntegratorType integrator : kIntegrators) {
     RenderSettings settings = small_picture(integrator, 8);
     settings.clamp_direct = 0.2f;
