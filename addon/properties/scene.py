@@ -155,6 +155,26 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         default=1.5,
         subtype="PIXEL",
     )
+    film_exposure: FloatProperty(
+        name="Exposure",
+        description="Image brightness scale",
+        min=0.0,
+        soft_max=10.0,
+        default=1.0,
+    )
+    film_transparent_glass: BoolProperty(
+        name="Transparent Glass",
+        description="Leaves the world out of the picture behind clear glass, too, for compositing "
+        "it over another background",
+        default=False,
+    )
+    film_transparent_roughness: FloatProperty(
+        name="Roughness Threshold",
+        description="Glass is clear up to this roughness",
+        min=0.0,
+        max=1.0,
+        default=0.1,
+    )
     cycles_notice: BoolProperty(
         name="Notice",
         description="The settings were copied from Cycles, and nobody has said yet that they know",

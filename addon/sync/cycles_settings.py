@@ -15,6 +15,9 @@ SHARED = (
     "transparent_max_bounces",
     "pixel_filter_type",
     "filter_width",
+    "film_exposure",
+    "film_transparent_glass",
+    "film_transparent_roughness",
     "samples",
     "time_limit",
 )
@@ -58,7 +61,7 @@ def notice(scene) -> str:
     """What the user has to know as long as the values are Cycles' and nobody has looked at them."""
     if not from_cycles(scene) or (adopted(scene) and not scene.janus.cycles_notice):
         return ""
-    text = "Bounces, pixel filter and samples are copied from Cycles"
+    text = "Bounces, film and samples are copied from Cycles"
     left_out = _left_out(scene.cycles)
     return f"{text}. Not copied, as it cuts caustics: {', '.join(left_out)}" if left_out else text
 

@@ -100,7 +100,10 @@ def render_settings(depsgraph) -> dict:
         "connections": janus.connections,
         "adaptive_counts": janus.adaptive_counts,
         "heuristic": janus.heuristic,
+        "film_exposure": shared("film_exposure"),
         "film_transparent": render.film_transparent,
+        "film_transparent_glass": shared("film_transparent_glass"),
+        "film_transparent_roughness": shared("film_transparent_roughness"),
     }
 
 

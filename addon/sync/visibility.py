@@ -20,28 +20,8 @@ def check_scene(depsgraph, log) -> None:
         log.info(notice)
     if render.use_motion_blur:
         log.warning("Motion blur is not supported yet")
-    _check_film(depsgraph.scene_eval, log)
     if render.use_multiview:
         log.warning("Stereoscopy is not supported, all views show the same picture")
-    _check_collections(depsgraph.view_layer.layer_collection, log)
-
-
-def _check_film(scene, log) -> None:
-    """What Cycles keeps of the film."""
-    cycles = getattr(scene, "cycles", None)
-    if getattr(cycles, "film_exposure", 1.0) != 1.0:
-        log.warning("The exposure of Cycles' film is not supported yet, 1 is used")
-    if scene.render.film_transparent and getattr(cycles, "film_transparent_glass", False):
-        log.warning("Transparent glass on a transparent film is not supported yet")
-
-
-def _check_collections(layer_collection, log) -> None:
-    for child in layer_collection.children:
-        if child.exclude:
-            continue
-        if child.holdout:
-            log.warning(f"Collection '{child.name}': holdout is not supported yet")
-        _check_collections(child, log)
 
 
 def seen_by(obj, rays=RAYS) -> dict:
@@ -52,20 +32,20 @@ def seen_by(obj, rays=RAYS) -> dict:
 
 def surface_seen_by(instance, view_layer) -> dict:
     """The same for a surface as it stands in the scene: who instances it may hide it too, and
-    collections may leave it to indirect light."""
+    collections may leave it to indirect light. And whether it holds out, which is for who instances
+    it alone to say."""
     seen = seen_by(instance.object)
     owner = instance.object
     if instance.is_instance:
         owner = instance.parent
         seen = {name: seen[name] and value for name, value in seen_by(owner).items()}
     seen["visible_camera"] &= not owner.original.indirect_only_get(view_layer=view_layer)
+    seen["holdout"] = owner.original.holdout_get(view_layer=view_layer)
     return seen
 
 
 def check_object(obj, log) -> None:
     """What concerns one object that has a surface."""
-    if obj.is_holdout:
-        log.warning("holdout is not supported yet", object=obj.name)
     if obj.is_shadow_catcher:
         log.warning("shadow catchers are not supported yet", object=obj.name)
     check_linking(obj, log)

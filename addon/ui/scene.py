@@ -77,10 +77,27 @@ class JANUS_RENDER_PT_film(JanusPanel, bpy.types.Panel):
     def draw(self, context):
         janus = context.scene.janus
         column = self.column()
+        column.prop(janus, "film_exposure")
         column.prop(janus, "pixel_filter_type", text="Pixel Filter")
         if janus.pixel_filter_type != "BOX":
             column.prop(janus, "filter_width", text="Width")
-        column.prop(context.scene.render, "film_transparent", text="Transparent")
+
+
+class JANUS_RENDER_PT_film_transparency(JanusPanel, bpy.types.Panel):
+    bl_label = "Transparent"
+    bl_parent_id = "JANUS_RENDER_PT_film"
+
+    def draw_header(self, context):
+        self.layout.prop(context.scene.render, "film_transparent", text="")
+
+    def draw(self, context):
+        janus = context.scene.janus
+        column = self.column()
+        column.active = context.scene.render.film_transparent
+        column.prop(janus, "film_transparent_glass")
+        row = column.row()
+        row.active = janus.film_transparent_glass
+        row.prop(janus, "film_transparent_roughness")
 
 
 class JANUS_RENDER_PT_performance(JanusPanel, bpy.types.Panel):
@@ -118,6 +135,7 @@ CLASSES = (
     JANUS_RENDER_PT_light_paths_clamping,
     JANUS_RENDER_PT_bidirectional,
     JANUS_RENDER_PT_film,
+    JANUS_RENDER_PT_film_transparency,
     JANUS_RENDER_PT_performance,
     JANUS_VIEWLAYER_PT_override,
 )

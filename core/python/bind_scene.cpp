@@ -338,20 +338,23 @@ void bind_scene(py::module_& m) {
           "set_instance",
           [](SceneBuilder& self, Key key, std::string name, std::string mesh,
              const py::object& transform, std::vector<std::optional<std::string>> materials,
-             bool camera, bool diffuse, bool glossy, bool transmission, bool shadow,
+             bool camera, bool diffuse, bool glossy, bool transmission, bool shadow, bool holdout,
              const std::array<float, 4>& color, float object_index, float random) {
             self.set_instance(
                 key, {std::move(name), std::move(mesh), to_matrix(key, transform),
                       std::move(materials), to_mask(camera, diffuse, glossy, transmission, shadow),
-                      vec4(color[0], color[1], color[2], color[3]), object_index, random});
+                      holdout, vec4(color[0], color[1], color[2], color[3]), object_index, random});
           },
           "key"_a, py::kw_only(), "name"_a, "mesh"_a, "transform"_a,
           "materials"_a = std::vector<std::optional<std::string>>(), "visible_camera"_a = true,
           "visible_diffuse"_a = true, "visible_glossy"_a = true, "visible_transmission"_a = true,
-          "visible_shadow"_a = true, "color"_a = std::array{1.0f, 1.0f, 1.0f, 1.0f},
-          "object_index"_a = 0.0f, "random"_a = 0.0f,
+          "visible_shadow"_a = true, "holdout"_a = false,
+          "color"_a = std::array{1.0f, 1.0f, 1.0f, 1.0f}, "object_index"_a = 0.0f,
+          "random"_a = 0.0f,
           "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot; "
-          "visible_*: the rays that meet it; the rest is what the Object Info node says.")
+          "visible_*: the rays that meet it; holdout: leaves a hole in the picture where the "
+          "camera "
+          "sees it; the rest is what the Object Info node says.")
       .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,
            "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f,
            "soft_falloff"_a = true, "shape"_a = "SQUARE", "size"_a = 0.25f, "size_y"_a = 0.25f,

@@ -36,7 +36,9 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
                              const std::string& integrator, const std::string& filter,
                              float filter_width, float light_paths, float connections,
                              bool adaptive_counts, const std::string& heuristic,
-                             bool film_transparent, bool roulette, bool check_weights) {
+                             float film_exposure, bool film_transparent,
+                             bool film_transparent_glass, float film_transparent_roughness,
+                             bool roulette, bool check_weights) {
   RenderSettings s;
   s.width = width;
   s.height = height;
@@ -61,7 +63,10 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
   s.connections = connections;
   s.adaptive_counts = adaptive_counts;
   s.heuristic = from_name(kHeuristics, heuristic, "heuristic");
+  s.film_exposure = film_exposure;
   s.film_transparent = film_transparent;
+  s.film_transparent_glass = film_transparent_glass;
+  s.film_transparent_roughness = film_transparent_roughness;
   s.roulette = roulette;
   s.check_weights = check_weights;
   s.validate();
@@ -92,7 +97,10 @@ py::dict to_dict(const RenderSettings& s) {
   d["connections"] = s.connections;
   d["adaptive_counts"] = s.adaptive_counts;
   d["heuristic"] = to_name(kHeuristics, s.heuristic);
+  d["film_exposure"] = s.film_exposure;
   d["film_transparent"] = s.film_transparent;
+  d["film_transparent_glass"] = s.film_transparent_glass;
+  d["film_transparent_roughness"] = s.film_transparent_roughness;
   d["roulette"] = s.roulette;
   d["check_weights"] = s.check_weights;
   return d;
@@ -113,6 +121,8 @@ void bind_settings(py::module_& m) {
       "pixels; light_paths per pixel; connections per camera vertex; "
       "adaptive_counts: bdpt starts with these two and then takes what is most efficient for the "
       "scene; heuristic: BALANCE or POWER; "
+      "film_exposure: a factor of the colour; film_transparent: the world is not in the picture; "
+      "film_transparent_glass: nor behind glass of up to film_transparent_roughness; "
       "roulette: False traces every path and every shadow ray to its end (slow); "
       "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
   settings.def(
@@ -127,7 +137,9 @@ void bind_settings(py::module_& m) {
       "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
       "light_paths"_a = d.light_paths, "connections"_a = d.connections,
       "adaptive_counts"_a = d.adaptive_counts, "heuristic"_a = to_name(kHeuristics, d.heuristic),
-      "film_transparent"_a = d.film_transparent, "roulette"_a = d.roulette,
+      "film_exposure"_a = d.film_exposure, "film_transparent"_a = d.film_transparent,
+      "film_transparent_glass"_a = d.film_transparent_glass,
+      "film_transparent_roughness"_a = d.film_transparent_roughness, "roulette"_a = d.roulette,
       "check_weights"_a = d.check_weights);
   settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
   settings.def("__repr__", [](const RenderSettings& s) {

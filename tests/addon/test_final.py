@@ -70,6 +70,8 @@ def test_settings_reach_the_core(scene, fake_core):
     janus.integrator, janus.heuristic = "PT", "POWER"
     janus.light_paths, janus.connections = 0.5, 2.0
     janus.pixel_filter_type, janus.filter_width = "GAUSSIAN", 2.0
+    janus.film_exposure, janus.film_transparent_glass = 1.5, True
+    janus.film_transparent_roughness = 0.25
     bpy.ops.render.render()
     assert vars(fake_core.settings) == {
         "width": 16,
@@ -93,7 +95,10 @@ def test_settings_reach_the_core(scene, fake_core):
         "connections": 2.0,
         "heuristic": "POWER",
         "adaptive_counts": True,
+        "film_exposure": 1.5,
         "film_transparent": True,
+        "film_transparent_glass": True,
+        "film_transparent_roughness": 0.25,
     }
 
 
@@ -116,6 +121,8 @@ def test_defaults(scene, fake_core):
         "transparent_max_bounces": 8,
         "clamp_direct": 0.0,
         "clamp_indirect": 0.0,
+        "film_exposure": 1.0,
+        "film_transparent_glass": False,
         "integrator": "bdpt",
         "threads": 0,
     }

@@ -13,6 +13,9 @@ OWN = {
     "transparent_max_bounces": 11,
     "pixel_filter_type": "GAUSSIAN",
     "filter_width": 2.5,
+    "film_exposure": 1.5,
+    "film_transparent_glass": True,
+    "film_transparent_roughness": 0.25,
     "samples": 3,
     "time_limit": 60.0,
 }

@@ -280,7 +280,7 @@ def test_material_override(scene, export):
 
 def test_unsupported_things_are_named(scene, export):
     square = add_square("Ghost")
-    square.is_holdout = True
+    square.is_shadow_catcher = True
     bpy.ops.object.volume_add()
     cloud = bpy.data.objects.new("Cloud", bpy.data.pointclouds.new("Cloud"))
     scene.collection.objects.link(cloud)
@@ -293,19 +293,15 @@ def test_unsupported_things_are_named(scene, export):
     square.data.materials.append(material)
     scene.world = bpy.data.worlds.new("Sky")
     scene.world.cycles.max_bounces = 3
-    scene.cycles.film_exposure = 2.0
-    scene.render.film_transparent = scene.cycles.film_transparent_glass = True
     export()
     text = "\n".join(messages())
     for expected in (
-        "Object 'Ghost': holdout",
+        "Object 'Ghost': shadow catchers",
         "Object 'Volume': volumes",
         "Object 'Cloud': point clouds",
         "Motion blur",
         "Material 'Foggy': volumes",
         "Material 'Foggy': displacement",
-        "The exposure of Cycles' film",
-        "Transparent glass",
         "Object 'Sky': the world's own limit of bounces",
     ):
         assert expected in text, text
@@ -370,3 +366,49 @@ def test_indirect_only_collections_are_hidden_from_the_camera(scene, export):
     assert hidden_from(instances["Square"]) == {"camera"}
     assert hidden_from(instances["Plain"]) == set()
     assert not messages()
+
+
+def held(recorder, name):
+    return [i["holdout"] for i in recorder.instances.values() if i["name"] == name]
+
+
+def test_holdout_objects(scene, export):
+    add_square("Hole").is_holdout = True
+    add_square("Plain")
+    recorder = export()
+    assert (held(recorder, "Hole"), held(recorder, "Plain")) == ([True], [False])
+    assert not messages()
+
+
+def test_holdout_collections_do_not_pass_it_on(scene, export):
+    """As in Blender, where each collection of the view layer has a switch of its own."""
+    outer, inner = (bpy.data.collections.new(name) for name in ("Outer", "Inner"))
+    scene.collection.children.link(outer)
+    outer.children.link(inner)
+    mesh = add_square("Plain").data
+    outer.objects.link(bpy.data.objects.new("In outer", mesh))
+    inner.objects.link(bpy.data.objects.new("In inner", mesh))
+    layer = scene.view_layers[0].layer_collection.children["Outer"]
+    names = ("In outer", "In inner", "Plain")
+    layer.holdout = True
+    recorder = export()
+    assert [held(recorder, name) for name in names] == [[True], [False], [False]]
+    layer.holdout, layer.children["Inner"].holdout = False, True
+    recorder = export()
+    assert [held(recorder, name) for name in names] == [[False], [True], [False]]
+    assert not messages()
+
+
+def test_who_instances_an_object_says_whether_it_holds_out(scene, export):
+    """As in Cycles, where the instanced object itself has no say."""
+    collection = bpy.data.collections.new("Source")
+    for name in ("Inside", "Hole"):
+        collection.objects.link(bpy.data.objects.new(name, add_square(f"{name} alone").data))
+    collection.objects["Hole"].is_holdout = True
+    for name in ("A", "B"):
+        empty = bpy.data.objects.new(name, None)
+        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        empty.is_holdout = name == "B"
+        scene.collection.objects.link(empty)
+    recorder = export()
+    assert sorted(held(recorder, "Inside")) == sorted(held(recorder, "Hole")) == [False, True]

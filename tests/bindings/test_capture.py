@@ -50,6 +50,40 @@ def test_images(tmp_path):
     assert not np.array_equal(render(builder.commit()).snapshot(), expected)
 
 
+def test_holdouts(tmp_path):
+    builder = capture.CapturingBuilder()
+    fill(builder)
+    builder.set_world(name="World", graph=None)
+    plain = render(builder.commit()).snapshot()
+    for key, arguments in builder._items["instance"].items():
+        builder.set_instance(key, **arguments | {"holdout": True})
+    builder.save(tmp_path / "held.npz", janus_core.RenderSettings(**SETTINGS))
+    again, _ = capture.load(tmp_path / "held.npz")
+    held = render(again.commit()).snapshot()
+    assert plain[..., :3].any()
+    assert plain[..., 3].all()
+    assert not held[4:-4, 4:-4].any()  # the border sees the edge of the floor
+
+
+def test_captures_of_version_3(captured, tmp_path):
+    """From before holdouts and the film's settings."""
+    path, expected = captured
+    old = tmp_path / "old.npz"
+    with zipfile.ZipFile(path) as new, zipfile.ZipFile(old, "w") as archive:
+        for name in new.namelist():
+            content = new.read(name)
+            if name == "scene.json":
+                description = json.loads(content)
+                description["version"] = 3
+                for setting in ("exposure", "transparent_glass", "transparent_roughness"):
+                    del description["settings"][f"film_{setting}"]
+                content = json.dumps(description)
+            archive.writestr(name, content)
+    builder, settings = capture.load(old)
+    assert settings == janus_core.RenderSettings(**SETTINGS)
+    assert np.array_equal(render(builder.commit()).snapshot(), expected)
+
+
 def test_nothing_in_it_is_pickled(captured):
     with zipfile.ZipFile(captured[0]) as archive:
         assert "scene.json" in archive.namelist()

@@ -39,6 +39,18 @@ def test_wrong_settings_are_named(name, value):
     assert (caught.value.key, caught.value.path) == ("settings", name)
 
 
+def test_exposure_and_glass_of_the_film(builder):
+    scene = builder.commit()
+    plain = render(scene, samples=2).snapshot()
+    exposed = render(scene, samples=2, film_exposure=2.0, film_transparent_roughness=0.5)
+    assert np.allclose(exposed.snapshot()[..., :3], 2 * plain[..., :3])
+    assert np.array_equal(exposed.snapshot()[..., 3], plain[..., 3])
+    for name, value in (("film_exposure", -1.0), ("film_transparent_roughness", 1.5)):
+        with pytest.raises(janus_core.SceneError) as caught:
+            janus_core.RenderSettings(**{name: value})
+        assert caught.value.path == name
+
+
 def test_wrong_words_and_types():
     with pytest.raises(ValueError, match="bdpt, pt, lt"):
         janus_core.RenderSettings(integrator="magic")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cases for both.py: scenes of scenes/, small, with as many samples as their noise needs.
+"""Cases for both.py: scenes of scenes/, small, each with as many samples as it needs.
 
 Two have larger lamps here, as Cycles would need hours for its own noise to go under: the hero
 (hero_soft) and the pool, where the caustics are those of a hazy sun.

@@ -64,12 +64,13 @@ void Film::end_pass(ThreadPool& pool) {
   ++passes_;
 }
 
-Image Film::develop() const {
+Image Film::develop(float exposure) const {
   Image image(rect_.width(), rect_.height(), 4);
   if (passes_ > 0) {
     for (size_t i = 0; i < sum_.size(); ++i) {
       for (int c = 0; c < 4; ++c) {
-        image.pixels[4 * i + c] = static_cast<float>(sum_[i][c] / passes_);
+        const double factor = c < 3 ? exposure : 1.0;
+        image.pixels[4 * i + c] = static_cast<float>(factor * sum_[i][c] / passes_);
       }
     }
   }

@@ -56,8 +56,9 @@ class Film {
   // The mean of a pixel over the passes (at least one).
   Rgb mean(size_t index) const { return Rgb(sum_[index] / static_cast<double>(passes_)); }
 
-  // The mean over the passes: RGBA, premultiplied; black before the first pass.
-  Image develop() const;
+  // The mean over the passes: RGBA, premultiplied, its colour times `exposure`; black before the
+  // first pass.
+  Image develop(float exposure = 1.0f) const;
 
  private:
   FilmRect rect_;

@@ -55,6 +55,7 @@ struct Instance {
   int light = -1;                            // index of the mesh light, or -1
   bool opaque = true;                        // false: rays may pass through parts of it (see Accel)
   RayMask visibility = kAllRays;             // the rays that meet it
+  bool holdout = false;                      // InstanceDesc::holdout
   vec4 color = vec4(1.0f);                   // what Object Info says: the object's colour,
   float object_index = 0.0f, random = 0.0f;  // its pass index, a number of its own in [0, 1]
   std::string name;

@@ -258,10 +258,6 @@ class Bdpt final : public PassIntegrator {
     const float alpha = trace_camera_subpath(
         context_.scene, context_.camera, raster, mis_, settings_.walk, sampler, counters,
         [&](const LightFound& found) {
-          if (found.edges == 1 && settings_.film_transparent &&
-              context_.scene.lights[found.light]->infinite()) {
-            return;
-          }
           const Connection c{
               found.beta * found.hit.radiance, found.weight, {}, {}, RayType::Shadow, 0};
           const Rgb value = settings_.clamp(weighted(c, 0, found.edges + 1), found.edges);
@@ -277,7 +273,7 @@ class Bdpt final : public PassIntegrator {
             gather(connect(v, picks, roulette, walk, meter, counters));
           }
         });
-    context_.film.add_sample(index, sum, settings_.film_transparent ? alpha : 1.0f);
+    context_.film.add_sample(index, sum, alpha);
     if (settings_.check_weights && index % kOracleStride == 0) {
       check(raster, index, pass);
     }

@@ -32,7 +32,6 @@ struct IntegratorSettings {
   float connections = 1.0f;  // per camera vertex, expected
   // bdpt: the first two passes have these counts, and the others what these passes recommend.
   bool adaptive_counts = false;
-  bool film_transparent = false;
   uint32_t seed = 0;
   size_t cache_bytes = size_t{256} << 20;  // upper bound for the light-vertex cache
   bool check_weights = false;  // debug: compare weights of sampled paths with the oracle

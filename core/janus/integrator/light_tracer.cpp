@@ -62,8 +62,10 @@ class LightTracer final : public PassIntegrator {
 
   void trace_directly_visible(int pass) {
     const size_t width = context_.film.rect().width();
-    WalkSettings one_edge = settings_.walk;
-    one_edge.max_edges = 1;
+    WalkSettings walk = settings_.walk;
+    if (walk.clear_glass < 0.0f) {  // else alpha needs what is behind glass
+      walk.max_edges = 1;
+    }
     for_each_row([&](size_t row, Counters& counters) {
       for (size_t i = row * width; i < (row + 1) * width; ++i) {
         Sampler sampler = camera_sampler(i, pass);
@@ -71,15 +73,14 @@ class LightTracer final : public PassIntegrator {
         const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
         Rgb sum(0.0f);
         const float alpha = trace_camera_subpath(
-            context_.scene, context_.camera, raster, mis_, one_edge, sampler, counters,
+            context_.scene, context_.camera, raster, mis_, walk, sampler, counters,
             [&](const LightFound& found) {
-              if (!(settings_.film_transparent && context_.scene.lights[found.light]->infinite())) {
+              if (found.edges == 1) {
                 sum += settings_.clamp(found.beta * found.hit.radiance, 1);
               }
             },
             [](const PathVertex&, Sampler&) {});
-        context_.film.add_sample(i, usable(sum, counters) ? sum : Rgb(0.0f),
-                                 settings_.film_transparent ? alpha : 1.0f);
+        context_.film.add_sample(i, usable(sum, counters) ? sum : Rgb(0.0f), alpha);
       }
     });
   }

@@ -23,8 +23,7 @@ class PathTracer final : public PassIntegrator {
         const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
         float alpha = 1.0f;
         const Rgb value = radiance(raster, sampler, counters, alpha);
-        context_.film.add_sample(i, usable(value, counters) ? value : Rgb(0.0f),
-                                 settings_.film_transparent ? alpha : 1.0f);
+        context_.film.add_sample(i, usable(value, counters) ? value : Rgb(0.0f), alpha);
       }
     });
   }
@@ -54,6 +53,8 @@ class PathTracer final : public PassIntegrator {
     // whether it was to the other side.
     Rgb diffuse = Rgb(0.0f), rest = Rgb(1.0f);
     bool transmitted = false;
+    // The camera has seen nothing so far but transparent surfaces and clear glass.
+    bool clear = true;
     // Where it looks for lights with the rules of shadow rays: what lets them through so far.
     std::optional<Rgb> through = std::nullopt;
   };
@@ -61,8 +62,8 @@ class PathTracer final : public PassIntegrator {
   // Light of source `index` found on the way.
   Rgb found(const Walk& walk, size_t index, const LightHit& hit) const {
     const Light& light = *context_.scene.lights[index];
-    if (walk.edges == 1 && (!contains(light.visibility, RayType::Camera) ||
-                            (light.infinite() && settings_.film_transparent))) {
+    if ((walk.edges == 1 && !contains(light.visibility, RayType::Camera)) ||
+        (walk.clear && left_out(light))) {
       return Rgb(0.0f);
     }
     if (walk.edges > light.max_edges && !walk.delta) {
@@ -85,6 +86,38 @@ class PathTracer final : public PassIntegrator {
             : lights.pmf_illumination(walk.previous, index, hit.primitive) * hit.pdf_illumination;
     const float w = walk.delta ? 1.0f : weight(walk.pdf_solid, pdf_nee);
     return settings_.clamp(beta * lit * hit.radiance * w, walk.edges);
+  }
+
+  // Not in what the camera sees clearly?
+  bool left_out(const Light& light) const {
+    return light.holdout || (light.background && settings_.walk.film_transparent);
+  }
+
+  // How much of a refraction at `bsdf` is clear.
+  float clear_part(const BsdfView& bsdf, vec3 wo, vec3 wi) const {
+    const bool refracted = dot(wo, bsdf.ng()) * dot(wi, bsdf.ng()) < 0.0f;
+    const float most = settings_.walk.clear_glass;
+    return refracted && most >= 0.0f ? bsdf.refracted_share(wo, wi, most) : 0.0f;
+  }
+
+  // The surface `hit` where it is seen clearly: the hole that it leaves in `beta`, and what it
+  // still does. Empty: the path may go on.
+  void hold_out(const SurfaceInteraction& hit, const Walk& walk, ShadingResult& shading,
+                float& alpha) const {
+    if (context_.scene.instances[hit.instance].holdout) {
+      alpha -= average(walk.beta * (Rgb(1.0f) - shading.transparency));
+      shading.emission = Rgb(0.0f);
+      shading.bsdf.clear();
+      return;
+    }
+    alpha -= shading.holdout * average(walk.beta);
+    if (shading.holdout >= 1.0f) {
+      shading.transparency = Rgb(0.0f);
+      shading.bsdf.clear();
+      if (walk.edges == 1) {
+        shading.emission = Rgb(0.0f);
+      }
+    }
   }
 
   // What a light may add of what diffuse lobes scatter, and of the rest.
@@ -164,8 +197,8 @@ class PathTracer final : public PassIntegrator {
       const auto hit = scene.intersect(
           Ray{walk.origin, walk.ray.direction, walk.ray.t_max - walk.t_begin}, walk.type);
       if (!hit) {
-        if (walk.edges == 1) {
-          alpha = 1.0f - average(walk.beta);
+        if (walk.clear && settings_.walk.film_transparent) {
+          alpha -= average(walk.beta);
         }
         return apart ? sum : sum + lamps(walk, std::nullopt);
       }
@@ -173,7 +206,10 @@ class PathTracer final : public PassIntegrator {
       if (!apart) {
         sum += lamps(walk, t_end);
       }
-      const ShadingResult shading = scene.shade(*hit, wo);
+      ShadingResult shading = scene.shade(*hit, wo);
+      if (settings_.walk.holdouts && walk.clear) {
+        hold_out(*hit, walk, shading, alpha);
+      }
       size_t index;
       if (const MeshLight* light = scene.mesh_light(*hit, index)) {
         const LightHit shine =
@@ -204,9 +240,8 @@ class PathTracer final : public PassIntegrator {
       const BsdfView bsdf = shading.bsdf.view(hit->ng);
       sampler.start_block(walk.edges);
       if (bsdf.connectible() && scene.light_sampler.illuminates()) {
-        sum += settings_.clamp(
-            walk.beta * direct(*hit, bsdf, wo, walk.edges + 1, walk.crossings, sampler, counters),
-            walk.edges + 1);
+        sum += settings_.clamp(walk.beta * direct(*hit, bsdf, wo, walk, sampler, counters),
+                               walk.edges + 1);
       }
 
       const float u_lobe = sampler.next_1d();
@@ -228,6 +263,11 @@ class PathTracer final : public PassIntegrator {
       }
       const Rgb diffuse =
           settings_.walk.ray_types ? share(sample->diffuse, sample->weight) : Rgb(0.0f);
+      bool clear = walk.clear && settings_.walk.clear_glass >= 0.0f && sample->transmitted;
+      if (clear && !sample->delta) {
+        const float part = clear_part(bsdf, wo, sample->direction);
+        clear = part > 0.0f && sampler.next_1d() < part;
+      }
       const Ray next{offset_origin(hit->p, hit->ng, hit->offset, sample->direction),
                      sample->direction};
       walk = Walk{.ray = next,
@@ -242,7 +282,8 @@ class PathTracer final : public PassIntegrator {
                   .type = type,
                   .diffuse = diffuse,
                   .rest = Rgb(1.0f) - diffuse,
-                  .transmitted = sample->transmitted};
+                  .transmitted = sample->transmitted,
+                  .clear = clear};
     }
   }
 
@@ -274,7 +315,7 @@ class PathTracer final : public PassIntegrator {
     return false;
   }
 
-  Rgb direct(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, int edges, int crossings,
+  Rgb direct(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, const Walk& walk,
              Sampler& sampler, Counters& counters) const {
     const Scene& scene = context_.scene;
     const float u_light = sampler.next_1d();
@@ -283,7 +324,7 @@ class PathTracer final : public PassIntegrator {
         scene.light_sampler.sample_illumination(receiver(hit, bsdf, wo), u_light);
     const Light& light = *scene.lights[choice.light];
     const auto sample = light.sample_illumination(hit.p, choice.primitive, u);
-    if (!sample || edges > light.max_edges) {
+    if (!sample || walk.edges + 1 > light.max_edges) {
       return Rgb(0.0f);
     }
     const BsdfEval e = bsdf.evaluate(wo, sample->wi, TransportMode::Radiance);
@@ -294,7 +335,7 @@ class PathTracer final : public PassIntegrator {
     ++counters.nee_rays;
     const Rgb visible =
         scene.transmittance(offset_origin(hit.p, hit.ng, hit.offset, sample->wi), sample->target,
-                            light.shadow_ray, settings_.walk.max_crossings - crossings);
+                            light.shadow_ray, settings_.walk.max_crossings - walk.crossings);
     if (is_black(visible)) {
       return visible;
     }
@@ -304,6 +345,9 @@ class PathTracer final : public PassIntegrator {
     if (settings_.walk.ray_types) {
       const bool transmitted = dot(wo, hit.ng) * dot(sample->wi, hit.ng) < 0.0f;
       f = seen(light, e.diffuse, e.f - e.diffuse, transmitted);
+    }
+    if (walk.clear && left_out(light)) {
+      f *= 1.0f - clear_part(bsdf, wo, sample->wi);
     }
     return f * visible * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee);
   }

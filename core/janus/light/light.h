@@ -96,6 +96,8 @@ class Light {
   RayType shadow_ray = RayType::Shadow;  // or Unblocked
   // Edges of the paths on which next event estimation may find it, whichever technique does.
   int max_edges = 1 << 20;
+  bool background = false;  // the world: a transparent film leaves it out
+  bool holdout = false;     // part of an object that holds out
 
   // Takes the rules of a light object.
   void set_rules(const LightDesc& desc) {

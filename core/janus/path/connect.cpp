@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/path/connect.h"
 
+#include "janus/path/clear_view.h"
+
 namespace janus {
 
 LightVertex::LightVertex(const PathVertex& v)
@@ -19,6 +21,8 @@ LightVertex::LightVertex(const PathVertex& v)
       bounces(v.bounces),
       lobe_count(0),
       transmits(v.bsdf().transmits()),
+      hidden(v.hidden),
+      held(v.held),
       labels(v.possible_labels(false) & (v.edges == 1 ? v.source : kLabels)),
       seen_by(v.visibility & kLabels) {}
 
@@ -48,6 +52,9 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
     if (is_black(f)) {
       return joined;
     }
+  }
+  if (rules.clear_views() && v.clear && hidden_in_clear_view(light, rules)) {
+    f *= 1.0f - clear_share(rules, bsdf, v.back, wi);
   }
   const float pdf_nee = choice.pmf * sample->pdf_solid;
   const float pdf_hit = light.hittable() ? e.pdf_radiance : 0.0f;
@@ -132,6 +139,10 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
     }
     scale *= share;
   }
+  if (rules.clear_views() && c.clear && (l.held || l.hidden)) {
+    const float at_light_clear = l.held ? 1.0f : clear_share(rules, light_bsdf, -wi, l.wi);
+    scale *= 1.0f - at_light_clear * clear_share(rules, camera_bsdf, wo, wi);
+  }
   ++counters.connections_evaluated;
   const float pdf_area_light = at_camera.pdf_radiance * std::abs(cos_light) / d2;
   const float pdf_area_camera = at_light.pdf_importance * std::abs(cos_camera) / d2;
@@ -150,7 +161,7 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
 std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera, vec2 u_lens,
                                              float margin, const Mis& mis, const PathRules& rules) {
   std::optional<CameraSplat> splat;
-  if (!contains(v.visibility, RayType::Camera) || v.edges + 1 > v.max_edges) {
+  if (!contains(v.visibility, RayType::Camera) || v.edges + 1 > v.max_edges || v.held) {
     return splat;
   }
   const auto to_camera = camera.connect(v.hit.p, u_lens, margin);
@@ -170,6 +181,9 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
     share = Rgb(rules.caps.share(v.bounces, label));
   } else if (rules.ray_types) {
     share = v.possible_labels(false) ? lit_share(e.f, e.diffuse, transmitted, v.source) : Rgb(0.0f);
+  }
+  if (rules.clear_views() && v.hidden) {
+    share *= 1.0f - clear_share(rules, bsdf, wo, v.back);
   }
   if (is_black(share)) {
     return splat;

@@ -53,12 +53,18 @@ struct PathRules {
   int max_edges = 14;     // edges of a whole path; Cycles' max_bounces + 2
   int max_crossings = 8;  // of transparent surfaces on a whole path
   BounceCaps caps;
+  // Of clear views (path/clear_view.h): are there surfaces that hold out; is the background left
+  // out; and lobes of glass up to which squared GGX width are clear. Below 0: none is.
+  bool holdouts = false, film_transparent = false;
+  float clear_glass = -1.0f;
   bool ray_types = false;  // Scene::has_ray_types: what is met depends on the labels
 
   // Can a limit by label forbid a path of so many edges?
   bool caps_bind(int edges) const { return edges - 2 > caps.least(); }
   // Or any path at all? If not, nobody needs to count.
   bool counts() const { return caps_bind(max_edges); }
+  // Do vertices depend on whether the view to them is clear?
+  bool clear_views() const { return holdouts || clear_glass >= 0.0f; }
   // Must walks know their labels?
   bool labels() const { return ray_types || counts(); }
 };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "janus/camera/camera.h"
+#include "janus/path/clear_view.h"
 #include "janus/path/flight.h"
 
 namespace janus {
@@ -35,6 +36,7 @@ struct WalkStep {
   // Of the vertex, for the light that comes next; if PathRules::ray_types.
   Rgb value = Rgb(1.0f), diffuse = Rgb(0.0f);
   bool transmitted = false;
+  bool clear = false;  // the vertex kept a clear view, or would hide what is hidden
 
   Rgb lit_share(RayMask visibility) const {
     return janus::lit_share(value, diffuse, transmitted, visibility);
@@ -68,6 +70,9 @@ inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, Trans
     }
     step.label = shares.draw(sampler);
   }
+  step.clear = settings.clear_glass >= 0.0f &&
+               (mode == TransportMode::Radiance ? v.clear : v.hidden) &&
+               leaves_clear(settings, v, *sample, mode, sampler);
   eta_scale *= sample->eta_scale;
   const float q = settings.roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
   if (is_black(beta) || !is_finite(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
@@ -124,6 +129,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   v.crossings = 0;
   const float start = max_component(v.beta);
   v.source = light.visibility;
+  v.hidden = hidden_in_clear_view(light, settings);
   v.max_edges = std::min(settings.max_edges, light.max_edges);
   // What a mirror shows of the light is no shadow ray.
   constexpr RayMask kDeltas = ray_bit(RayType::Glossy) | ray_bit(RayType::Transmission);
@@ -154,6 +160,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   float eta_scale = 1.0f;
   WalkStep step;
   for (;;) {
+    v.held = settings.holdouts && holds_out(scene, v);
     on_vertex(v, sampler);
     if (v.edges + 2 > (v.edges == 1 ? settings.max_edges : v.max_edges)) {
       return;
@@ -165,6 +172,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     if (v.edges == 1 && step.left.delta) {
       v.max_edges = settings.max_edges;
     }
+    v.hidden = v.held || step.clear;
     // z_1 is next to the light, it is no bounce.
     if (settings.counts() && v.edges > 1) {
       v.bounces = v.bounces.with(step.label);
@@ -191,8 +199,9 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
 }
 
 // Traces one camera subpath through `raster`. Calls on_light(const LightFound&) for all light on
-// its segments and on_vertex(const PathVertex&, Sampler&) at z_{k-1}, z_{k-2}, ...; returns the
-// share of the camera ray that ended on a surface (film alpha). The sampler's block 0 belongs to
+// its segments and on_vertex(const PathVertex&, Sampler&) at z_{k-1}, z_{k-2}, ...; returns film
+// alpha: the share of the camera ray that did not end in a hole, or on a transparent film's
+// background. The sampler's block 0 belongs to
 // the caller (film) and the lens.
 template <class OnLight, class OnVertex>
 float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster, const Mis& mis,
@@ -207,6 +216,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
   WalkStep step{start.ray, {false, start.density.value, 0.0f}, {}, v.beta, 0.0f};
   Receiver previous{start.lens, start.ray.direction, true};
   float eta_scale = 1.0f, alpha = 1.0f;
+  bool ended = false;  // at something that holds out
   for (v.edges = 1;; ++v.edges) {
     const Ray& ray = step.ray;
     const RayType type = v.edges == 1 ? RayType::Camera : step.label;
@@ -215,6 +225,9 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
                             (scene.has_unblocked || !scene.accel->alike(type, RayType::Shadow));
     const auto found = [&](size_t index, const LightHit& hit, Rgb beta) {
       const Light& light = *scene.lights[index];
+      if (v.clear && hidden_in_clear_view(light, settings)) {
+        return;
+      }
       if (v.edges == 1) {
         if (contains(light.visibility, RayType::Camera)) {
           on_light(LightFound{index, hit, beta, 1, {}, {}, {}});
@@ -245,9 +258,11 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
         lamps_between(scene, ray, t_begin, t_end, surface,
                       [&](size_t lamp, const LightHit& hit) { found(lamp, hit, v.beta); });
       }
-      if (!surface) {
-        alpha = v.edges == 1 ? 1.0f - average(v.beta) : alpha;
-      } else if (!is_black(v.shading.emission)) {
+      if (v.clear && (surface ? settings.holdouts : settings.film_transparent)) {
+        alpha -= surface ? hole(scene, v.hit, v.beta, ended, v.shading) : average(v.beta);
+      }
+      // What it emits all the same is in the paths through clear glass, in every technique.
+      if (surface && !(ended && v.edges == 1) && !is_black(v.shading.emission)) {
         size_t index;
         if (const MeshLight* light = scene.mesh_light(v.hit, index)) {
           const LightHit hit = light->at(v.hit, previous.p, ray.direction, v.shading.emission);
@@ -265,6 +280,9 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     }
     if (!fly(scene, ray, type, TransportMode::Radiance, settings.max_crossings, sampler,
              counters.camera_rays, v, on_segment)) {
+      return alpha;
+    }
+    if (ended) {
       return alpha;
     }
     v.back = -ray.direction;
@@ -292,6 +310,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     }
     previous = receiver(v.hit, v.bsdf(), v.back);
     v.beta = step.beta;
+    v.clear = step.clear;
   }
 }
 

@@ -47,6 +47,9 @@ struct PathVertex {
   // Light subpaths, if PathRules::ray_types: what sees the light, and the types that were drawn for
   // the segment that led here. The vertex has to turn out to be of one of them.
   RayMask source = kAllRays, segment = kAllRays;
+  // Of clear views. Camera subpaths: the view to this vertex is clear. Light subpaths: a clear view
+  // to this vertex and beyond does not show what lies beyond; it does not show the vertex.
+  bool clear = true, hidden = false, held = false;
   int max_edges;       // light subpaths: of the whole path, with this vertex no delta if it is z_1
   LightEnd light_end;  // light subpaths: their start
   CameraEnd camera_end;  // camera subpaths: theirs

@@ -56,6 +56,7 @@ class Commit {
       instance.mesh = mesh->second;
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;
+      instance.holdout = desc.holdout;
       const float determinant = glm::determinant(mat3(desc.transform));
       if (!is_finite(desc.transform) || !std::isfinite(determinant) || determinant == 0.0f) {
         warn(name, "its transform is flat or not finite; the object is left out");
@@ -72,7 +73,9 @@ class Commit {
       if (instance.materials.empty()) {
         instance.materials.push_back(0);
       }
+      scene_.has_holdouts = scene_.has_holdouts || instance.holdout;
       for (const uint32_t program : instance.materials) {
+        scene_.has_holdouts |= scene_.surfaces.program(program).holds_out();
         instance.opaque = instance.opaque && !scene_.surfaces.program(program).has_transparency();
       }
       scene_.has_transparency = scene_.has_transparency || !instance.opaque;
@@ -115,6 +118,7 @@ class Commit {
                                       instance, static_cast<uint32_t>(i));
       if (light->power() > 0.0f || by_chance) {
         instance.light = static_cast<int>(scene_.lights.size());
+        light->holdout = instance.holdout;
         scene_.lights.push_back(std::move(light));
       }
     }
@@ -136,6 +140,7 @@ class Commit {
     }
     const auto add = [&](std::unique_ptr<Light> light) {
       light->visibility = world.visibility;
+      light->background = true;
       add_light(std::move(light));
     };
     if (auto map = compile_world_map(world, images, scene_.diagnostics)) {

@@ -81,6 +81,7 @@ class Scene {
   bool has_transparency = false;  // of some surface
   bool has_unblocked = false;     // some light casts no shadows
   bool has_ray_types = false;     // that, or some object or light is not visible to all rays
+  bool has_holdouts = false;      // of some object or surface
   CameraDesc camera;
   Diagnostics diagnostics;
 

@@ -45,6 +45,7 @@ struct InstanceDesc {
   mat4 transform = mat4(1.0f);                        // object to world
   std::vector<std::optional<std::string>> materials;  // keys by slot; nullopt: default surface
   RayMask visibility = kAllRays;                      // the rays that meet it
+  bool holdout = false;  // leaves a hole in the picture where the camera sees it
   // What the Object Info node says.
   vec4 color = vec4(1.0f);
   float object_index = 0.0f;  // the pass index

@@ -72,6 +72,12 @@ void RenderSession::run() {
                  settings_.max_transmission_bounces);
   integrator_settings.clamp = Clamp(settings_.clamp_direct, settings_.clamp_indirect);
   integrator_settings.walk.ray_types = scene_->has_ray_types;
+  integrator_settings.walk.holdouts = scene_->has_holdouts;
+  integrator_settings.walk.film_transparent = settings_.film_transparent;
+  if (settings_.film_transparent && settings_.film_transparent_glass) {
+    // A lobe's width is the square of a node's roughness; squares compare as Cycles does.
+    integrator_settings.walk.clear_glass = sqr(sqr(settings_.film_transparent_roughness));
+  }
   integrator_settings.walk.roulette = settings_.roulette;
   integrator_settings.contribution_roulette = settings_.roulette;
   integrator_settings.only = settings_.technique;
@@ -79,7 +85,6 @@ void RenderSession::run() {
   integrator_settings.light_paths = settings_.light_paths;
   integrator_settings.connections = settings_.connections;
   integrator_settings.adaptive_counts = settings_.adaptive_counts;
-  integrator_settings.film_transparent = settings_.film_transparent;
   integrator_settings.seed = settings_.seed;
   integrator_settings.cache_bytes = settings_.cache_bytes;
   integrator_settings.check_weights = settings_.check_weights;
@@ -151,7 +156,7 @@ Statistics RenderSession::statistics() const {
 
 Image RenderSession::snapshot() const {
   const std::lock_guard lock(mutex_);
-  return film_->develop();
+  return film_->develop(settings_.film_exposure);
 }
 
 void RenderSession::finish() {

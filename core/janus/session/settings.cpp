@@ -38,6 +38,10 @@ void RenderSettings::validate() const {
           "must be finite and at least 0");
   require(std::isfinite(filter_width) && filter_width > 0.0f && filter_width <= 100.0f,
           "filter_width", "must be above 0 and at most 100 pixels");
+  require(std::isfinite(film_exposure) && film_exposure >= 0.0f, "film_exposure",
+          "must be finite and at least 0");
+  require(film_transparent_roughness >= 0.0f && film_transparent_roughness <= 1.0f,
+          "film_transparent_roughness", "must be from 0 to 1");
   require(std::isfinite(light_paths) && light_paths >= 0.0f && light_paths <= 64.0f, "light_paths",
           "must be from 0 to 64 per pixel");
   require(std::isfinite(connections) && connections >= 0.0f && connections <= 64.0f, "connections",

@@ -32,7 +32,11 @@ struct RenderSettings {
   float connections = 1.0f;      // per camera vertex
   bool adaptive_counts = false;  // bdpt: IntegratorSettings::adaptive_counts
   Heuristic heuristic = Heuristic::Balance;
+  float film_exposure = 1.0f;  // a factor of the finished picture's colour
   bool film_transparent = false;
+  // On a transparent film: the world is not seen through glass of up to this roughness either.
+  bool film_transparent_glass = false;
+  float film_transparent_roughness = 0.1f;
   bool roulette = true;                // Russian roulette on walks and on contributions
   bool check_weights = false;          // debug: IntegratorSettings::check_weights
   std::optional<Technique> technique;  // debug: bdpt with this technique alone, without weights

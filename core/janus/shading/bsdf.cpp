@@ -142,6 +142,25 @@ BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
   return sum;
 }
 
+float BsdfView::refracted_share(vec3 wo, vec3 wi, float max_alpha2) const {
+  std::span<const Lobe> lobes = lobes_;
+  Bsdf seen;
+  if (reshading_ && !alike(*reshading_, wo, wi)) {
+    lobes_for_view(*reshading_, wo, seen);
+    lobes = seen.lobes();
+  }
+  const Directions d{wo, wi, dot(wo, ng_), dot(wi, ng_)};
+  float all = 0.0f, clear = 0.0f;
+  for (const Lobe& lobe : lobes) {
+    if (!is_delta(lobe) && janus::transmits(lobe)) {
+      const float f = average(evaluate_lobe(lobe, ng_, d).f);
+      all += f;
+      clear += is_ggx(lobe.type) && sqr(lobe.alpha) <= max_alpha2 ? f : 0.0f;
+    }
+  }
+  return clear > 0.0f ? clear / all : 0.0f;
+}
+
 std::optional<BsdfSample> BsdfView::sample(vec3 from, float u_lobe, vec2 u,
                                            TransportMode mode) const {
   const float from_ng = dot(from, ng_);

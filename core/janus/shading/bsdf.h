@@ -85,6 +85,10 @@ class BsdfView {
     return mode == TransportMode::Radiance ? e.pdf_radiance : e.pdf_importance;
   }
 
+  // The share, a mean over the channels, of lobes of glass whose squared GGX width is at most
+  // `max_alpha2` in the value of a refraction from `wi` to `wo`. Not fast.
+  float refracted_share(vec3 wo, vec3 wi, float max_alpha2) const;
+
   // Draws the direction on the other side of `from`; nullopt when the walk is absorbed.
   std::optional<BsdfSample> sample(vec3 from, float u_lobe, vec2 u, TransportMode mode) const;
 

@@ -140,6 +140,10 @@ void add(const ClosureArguments& a, ShadingResult& out) {
 }
 }  // namespace transparent
 
+namespace holdout {
+void add(const ClosureArguments& a, ShadingResult& out) { out.holdout += a.share(); }
+}  // namespace holdout
+
 namespace emission {
 constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 1.0f}, {"Strength", Float, 1.0f}};
 
@@ -246,6 +250,7 @@ const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
     kRefractionClosure{&refraction::add, {.transmits = true, .lobes = 1}, &refraction::check},
     kTranslucentClosure{&translucent::add, {.transmits = true, .lobes = 1}},
     kTransparentClosure{&transparent::add, {.transparent = true}},
+    kHoldoutClosure{&holdout::add, {.holds_out = true}},
     kEmissionClosure{&emission::add, {.emits = true}},
     kPrincipledClosure{&principled::add,
                        {.emits = true,

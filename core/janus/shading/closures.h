@@ -49,7 +49,7 @@ class ClosureArguments {
 };
 
 extern const ClosureDecl kDiffuseClosure, kGlossyClosure, kGlassClosure, kRefractionClosure,
-    kTranslucentClosure, kTransparentClosure, kEmissionClosure, kPrincipledClosure;
+    kTranslucentClosure, kTransparentClosure, kHoldoutClosure, kEmissionClosure, kPrincipledClosure;
 
 // The inputs of the closures, in the order in which their functions read them.
 extern const std::span<const SocketDecl> kDiffuseInputs, kGlossyInputs, kGlassInputs,

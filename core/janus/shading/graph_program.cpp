@@ -43,6 +43,7 @@ void GraphCompiler::closure(const NodeReader& reader, Value share) {
   }
   program_.varying_emission |= traits.emits && !neutral(traits.emission);
   program_.varying_transparency |= traits.transparent && !neutral(traits.alpha);
+  program_.varying_holdout |= traits.holds_out;
   lobes_ += traits.lobes;
   for (const ClosureTraits::Input& part : traits.parts) {
     lobes_ -= neutral(part) ? 1 : 0;
@@ -67,6 +68,7 @@ void GraphCompiler::add_constant(const NodeReader& reader, const ClosureStep& st
   step.decl->add({closure, registers.data(), places.data(), vec3(0, 0, 1)}, result);
   program_.emission += result.emission;
   program_.transparency += result.transparency;
+  program_.holdout += result.holdout;
   for (const Lobe& lobe : result.bsdf.lobes()) {
     ++lobes_;
     if (program_.lobes.size() < kMaxLobes) {
@@ -184,7 +186,7 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
                             "the shader is too large; what varies over the surface is left out"});
     program_.instructions.clear();
     program_.constants.clear();
-    program_.varying_emission = program_.varying_transparency = false;
+    program_.varying_emission = program_.varying_transparency = program_.varying_holdout = false;
     return;
   }
   for (const ClosureStep& step : closures_) {

@@ -54,7 +54,7 @@ struct ClosureTraits {
     int index = -1;
     float neutral = 0.0f;
   };
-  bool emits = false, transparent = false, transmits = false;
+  bool emits = false, transparent = false, transmits = false, holds_out = false;
   int lobes = 0;  // at most
   // Which may make it dark, opaque or reflecting after all.
   Input emission{}, alpha{}, transmission{};

@@ -22,6 +22,8 @@ struct ShadingResult {
   // Share of the light that passes straight through (Transparent BSDF, alpha): not a lobe, but a
   // crossing, which belongs to the walk.
   Rgb transparency = Rgb(0.0f);
+  // Share of Holdout closures. They do nothing, but for what the camera sees (path/clear_view.h).
+  float holdout = 0.0f;
 };
 
 class Program;
@@ -60,6 +62,7 @@ class Program {
   std::vector<Lobe> lobes;  // with selection probabilities, without normals; at most kMaxLobes
   Rgb emission = Rgb(0.0f);
   Rgb transparency = Rgb(0.0f);
+  float holdout = 0.0f;
   bool sample_emission = true;  // MaterialDesc::sample_emission
 
   // --- What does.
@@ -71,7 +74,7 @@ class Program {
   std::vector<std::shared_ptr<const Texture>> textures;
   std::vector<std::string> attributes;  // keys, by slot
   uint16_t registers = 0;
-  bool varying_emission = false, varying_transparency = false;
+  bool varying_emission = false, varying_transparency = false, varying_holdout = false;
   bool shifted = false;   // some instruction reads the points beside the point
   bool tangents = false;  // some attribute is a tangent
   Dependence dependence = Dependence::None;
@@ -85,6 +88,7 @@ class Program {
   // Is all of it the same everywhere?
   bool constant() const { return closures.empty(); }
   bool has_transparency() const { return varying_transparency || !is_black(transparency); }
+  bool holds_out() const { return varying_holdout || holdout > 0.0f; }
   bool emits() const { return varying_emission || !is_black(emission); }
 
   // Of a constant program. `normal`: shading normal on the front side, unit.
@@ -96,6 +100,7 @@ class Program {
     }
     result.emission = emission;
     result.transparency = transparency;
+    result.holdout = holdout;
   }
 
   void run(const ShadingPoint& point, ShadingResult& result) const;

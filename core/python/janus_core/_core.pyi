@@ -95,10 +95,7 @@ class Scene:
 
 @final
 class SceneBuilder:
-    """Collects a scene description. Keys are the caller's; setting a key again replaces the item.
-
-    All data is copied.
-    """
+    """Collects a scene description, which is copied. Setting a key again replaces the item."""
 
     def __init__(self) -> None: ...
     def set_mesh(
@@ -172,6 +169,7 @@ class SceneBuilder:
         visible_glossy: bool = True,
         visible_transmission: bool = True,
         visible_shadow: bool = True,
+        holdout: bool = False,
         color: Sequence[float] = (1.0, 1.0, 1.0, 1.0),
         object_index: float = 0.0,
         random: float = 0.0,
@@ -179,7 +177,7 @@ class SceneBuilder:
         """Places the mesh with the key `mesh` in the world.
 
         transform: float[4, 4], object to world. materials: a key for each slot, or None for the
-        default surface. visible_*: the rays that meet it, as in Blender.
+        default surface. visible_*: the rays that meet it; holdout: a hole where the camera sees it.
         """
     def set_light(
         self,
@@ -295,7 +293,10 @@ class RenderSettings:
         connections: float = 1.0,
         adaptive_counts: bool = False,
         heuristic: Literal["BALANCE", "POWER"] = "BALANCE",
+        film_exposure: float = 1.0,
         film_transparent: bool = False,
+        film_transparent_glass: bool = False,
+        film_transparent_roughness: float = 0.1,
         roulette: bool = True,
         check_weights: bool = False,
     ) -> None: ...
@@ -366,8 +367,17 @@ class RenderSettings:
     def heuristic(self) -> Literal["BALANCE", "POWER"]:
         """How the techniques are weighted."""
     @property
+    def film_exposure(self) -> float:
+        """A factor of the finished picture's colour."""
+    @property
     def film_transparent(self) -> bool:
         """Whether the world is left out of the picture, with alpha 0 there."""
+    @property
+    def film_transparent_glass(self) -> bool:
+        """On a transparent film: whether it is left out behind clear glass, too."""
+    @property
+    def film_transparent_roughness(self) -> float:
+        """The largest roughness of glass that counts as clear."""
     @property
     def roulette(self) -> bool:
         """False traces every path and every shadow ray to its end; slow, for tests."""
@@ -378,9 +388,7 @@ class RenderSettings:
 @final
 class RenderSession:
     """One render, on threads of its own that never run Python. Dropping it cancels it.
-
-    Methods may be called from any thread.
-    """
+    Methods may be called from any thread."""
 
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def start(self) -> None:

@@ -158,7 +158,7 @@ TEST(Compiler, PrincipledNamesWhatIsLeftOut) {
                      "thin film"));
   EXPECT_TRUE(
       warned(compiled(single("BSDF_GLOSSY", {{"Anisotropy", 0.5f}})), "Shader", "anisotropy"));
-  EXPECT_TRUE(warned(compiled(single("HOLDOUT", {})), "Shader", "HOLDOUT"));
+  EXPECT_TRUE(warned(compiled(single("BSDF_TOON", {})), "Shader", "BSDF_TOON"));
 }
 
 TEST(Compiler, OmittedInputsTakeTheDeclaredDefaults) {

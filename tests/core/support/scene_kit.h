@@ -172,8 +172,10 @@ class SceneKit {
 
   // A mesh with one material (no graph: the default surface).
   SceneKit& add(const std::string& name, MeshDesc mesh, std::optional<NodeGraph> material,
-                const mat4& transform = mat4(1.0f), RayMask visibility = kAllRays) {
+                const mat4& transform = mat4(1.0f), RayMask visibility = kAllRays,
+                bool holdout = false) {
     InstanceDesc instance;
+    instance.holdout = holdout;
     instance.visibility = visibility;
     instance.mesh = name;
     instance.transform = transform;

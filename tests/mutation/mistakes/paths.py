@@ -105,10 +105,9 @@ PATHS = (
         "what the camera does not see is not hit on longer paths either",
         CAMERAS,
         SUBPATH,
-        "const Light& light = *scene.lights[index];\n      if (v.edges == 1)",
-        "const Light& light = *scene.lights[index];\n"
-        "      if (!contains(light.visibility, RayType::Camera)) { return; }\n"
-        "      if (v.edges == 1)",
+        "if (v.clear && hidden_in_clear_view(light, settings)) {",
+        "if (!contains(light.visibility, RayType::Camera) ||\n"
+        "          (v.clear && hidden_in_clear_view(light, settings))) {",
     ),
     one(
         "drawn-type-not-made-up-for",
@@ -197,8 +196,8 @@ PATHS = (
         "surfaces with alpha do not glow for those that pass",
         CROSSINGS,
         SUBPATH,
-        "else if (!is_black(v.shading.emission)) {",
-        "else if (!is_black(v.shading.emission) && is_black(v.shading.transparency)) {",
+        "!is_black(v.shading.emission)) {",
+        "!is_black(v.shading.emission) && is_black(v.shading.transparency)) {",
     ),
     one(
         "no-transparency-at-splats",

@@ -17,8 +17,8 @@ VIEWS = (
         "the value is that of the lobes seen from where the walk comes",
         TESTS,
         BSDF,
-        "if (reshading_ && !alike(*reshading_, wo, wi)) {",
-        "if (false) {",
+        "if (reshading_ && !alike(*reshading_, wo, wi)) {\n    reshade(",
+        "if (false) {\n    reshade(",
     ),
     one(
         "delta-value-of-the-walk",

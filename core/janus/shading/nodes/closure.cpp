@@ -9,7 +9,8 @@ namespace janus {
 namespace {
 
 constexpr std::string_view kBsdf[] = {"BSDF"}, kEmission[] = {"Emission"},
-                           kBackground[] = {"Background"}, kShader[] = {"Shader"};
+                           kBackground[] = {"Background"}, kShader[] = {"Shader"},
+                           kHoldout[] = {"Holdout"};
 constexpr SocketDecl kMix[] = {{"Fac", SocketType::Float, 0.5f},
                                {"Shader", SocketType::Closure},
                                {"Shader_001", SocketType::Closure}};
@@ -27,6 +28,7 @@ std::span<const NodeDecl> closure_nodes() {
       {"BSDF_REFRACTION", kRefractionInputs, kBsdf, nullptr, &kRefractionClosure},
       {"BSDF_TRANSLUCENT", kTranslucentInputs, kBsdf, nullptr, &kTranslucentClosure},
       {"BSDF_TRANSPARENT", kTransparentInputs, kBsdf, nullptr, &kTransparentClosure},
+      {"HOLDOUT", {}, kHoldout, nullptr, &kHoldoutClosure},
       {"EMISSION", kEmissionInputs, kEmission, nullptr, &kEmissionClosure},
       {"BACKGROUND", kEmissionInputs, kBackground, nullptr, &kEmissionClosure},
       {"BSDF_PRINCIPLED", kPrincipledInputs, kBsdf, nullptr, &kPrincipledClosure},
