@@ -165,7 +165,8 @@ def compare(
 
     Tests the mean over each block (all channels together) and of each channel over the whole
     picture. The seeds of all pictures must be different and the pictures of one set alike. Blocks
-    whose relative standard error in `b` is above `noisy` are not tested: their means are not normal.
+    whose relative standard error in `b` is above `noisy` are not tested: their means are far from
+    normal.
     """
     means_a = np.array([block_means(image, block, mask) for image in a])
     means_b = np.array([block_means(image, block, mask) for image in b])
