@@ -175,7 +175,9 @@ def compare(
     whole_a, whole_b = means_a.mean(axis=1), means_b.mean(axis=1)
     blocks_a, blocks_b = means_a.mean(axis=2), means_b.mean(axis=2)
     spread = blocks_b.std(axis=0, ddof=1) / math.sqrt(len(b))
-    tested = np.full(len(spread), True) if noisy is None else spread <= noisy * blocks_b.mean(axis=0)
+    tested = np.full(len(spread), True)
+    if noisy is not None:
+        tested = spread <= noisy * blocks_b.mean(axis=0)
     series_a = np.concatenate([blocks_a[:, tested], whole_a], axis=1)
     series_b = np.concatenate([blocks_b[:, tested], whole_b], axis=1)
     t, p = welch(series_a, series_b)
