@@ -15,6 +15,8 @@ struct Closure {
   bool multiscatter;  // the node's distribution
 
   static constexpr uint16_t kNoNormal = UINT16_MAX;
+
+  bool operator==(const Closure&) const = default;
 };
 
 // The parameters of a closure at a point.

@@ -18,11 +18,11 @@ constexpr Operation kShareOfFirst =
 class ClosureTree {
  public:
   ClosureTree(const NodeGraph& graph, const std::string& material, const ImageMap& images,
-              Diagnostics& diagnostics)
+              Diagnostics& diagnostics, std::optional<RayType> world_ray)
       : graph_(graph),
         material_(material),
         diagnostics_(diagnostics),
-        compiler_(graph, material, images, diagnostics) {}
+        compiler_(graph, material, images, diagnostics, world_ray) {}
 
   Program compile() {
     if (graph_.surface) {
@@ -104,8 +104,8 @@ class ClosureTree {
 }  // namespace
 
 Program compile(const NodeGraph& graph, const std::string& material, const ImageMap& images,
-                Diagnostics& diagnostics) {
-  return ClosureTree(graph, material, images, diagnostics).compile();
+                Diagnostics& diagnostics, std::optional<RayType> world_ray) {
+  return ClosureTree(graph, material, images, diagnostics, world_ray).compile();
 }
 
 std::vector<std::string> required_attributes(const NodeGraph& graph) {

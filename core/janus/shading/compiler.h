@@ -2,12 +2,14 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "janus/scene/description.h"
 #include "janus/scene/diagnostics.h"
 #include "janus/scene/node_graph.h"
+#include "janus/scene/ray_type.h"
 #include "janus/shading/program.h"
 
 namespace janus {
@@ -16,8 +18,10 @@ using ImageMap = std::map<std::string, ImageDesc>;
 
 // Compiles a flattened node graph. Never fails: what it cannot do becomes a Diagnostic that names
 // `material` and the node, and the nearest closure or the socket's constant is used instead.
+// `world_ray`: the graph is that of a world, as rays of this type see it, Camera or a label;
+// without one it is that of a surface.
 Program compile(const NodeGraph& graph, const std::string& material, const ImageMap& images,
-                Diagnostics& diagnostics);
+                Diagnostics& diagnostics, std::optional<RayType> world_ray = std::nullopt);
 
 // The keys of the mesh attributes that the program of a graph reads: see node_emitter.h.
 std::vector<std::string> required_attributes(const NodeGraph& graph);

@@ -17,6 +17,8 @@ bool NodeEmitter::is_constant(Value value, float* x) const {
   return found != nullptr;
 }
 
+std::optional<RayType> NodeEmitter::world_ray() const { return compiler_.world_ray(); }
+
 Value NodeEmitter::constant(float x) { return compiler_.constant(vec3(x), SocketType::Float); }
 Value NodeEmitter::constant(vec3 x) { return compiler_.constant(x, SocketType::Vector); }
 Value NodeEmitter::convert(Value value, SocketType type) { return compiler_.convert(value, type); }

@@ -53,6 +53,14 @@ void Program::run(const ShadingPoint& point, ShadingResult& result) const {
   }
 }
 
+bool Program::emits_like(const Program& other) const {
+  const auto same = [](const auto& a, const auto& b) { return *a == *b; };
+  return emission == other.emission && constants == other.constants && operands == other.operands &&
+         instructions == other.instructions && closures == other.closures &&
+         tables == other.tables && attributes == other.attributes &&
+         std::ranges::equal(textures, other.textures, same);
+}
+
 void lobes_for_view(const Reshading& reshading, vec3 view, Bsdf& lobes) {
   ShadingPoint point = reshading.point;
   point.view = view;

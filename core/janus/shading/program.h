@@ -45,6 +45,8 @@ struct Instruction {
   uint32_t data;      // the kernel's: an attribute slot, a table, an image, a mode
   uint16_t out;       // register
   uint16_t at;        // index of the point that it reads
+
+  bool operator==(const Instruction&) const = default;
 };
 
 struct Closure;
@@ -104,6 +106,9 @@ class Program {
   }
 
   void run(const ShadingPoint& point, ShadingResult& result) const;
+
+  // Do both emit the same everywhere, to all appearance?
+  bool emits_like(const Program& other) const;
 
  private:
   void execute(RunState state) const;

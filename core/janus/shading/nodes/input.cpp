@@ -39,6 +39,9 @@ constexpr Operation kObjectPoint = at_point<[](const Context& c) {
 constexpr Operation kCameraPoint = at_point<[](const Context& c) {
   return vec3(c.point.object->to_camera * vec4(c.point.p, 1.0f));
 }>;
+// Worlds are as far from the camera as from anything.
+constexpr Operation kCameraDirection =
+    at_point<[](const Context& c) { return mat3(c.point.object->to_camera) * c.point.p; }>;
 // By the rows of a matrix in a table.
 constexpr Operation kOtherObjectPoint = at_point<[](const Context& c) {
   const std::vector<float>& m = c.program.tables[c.data];
@@ -55,13 +58,15 @@ constexpr Operation kReflection = by_view<[](const Context& c) {
 }>;
 
 void emit_coordinates(NodeEmitter& e) {
-  e.output("Generated", e.emit(kAttribute, {}, e.attribute("generated")));
+  const bool world = e.world_ray().has_value();
+  e.output("Generated",
+           world ? e.emit(kPosition, {}) : e.emit(kAttribute, {}, e.attribute("generated")));
   e.output("Normal", e.emit(kObjectNormal, {}));
   e.output("UV", e.emit(kAttribute, {}, e.attribute("uv:")));
   const std::vector<float>* other = e.list("object_matrix");
   e.output("Object", other && other->size() == 16 ? e.emit(kOtherObjectPoint, {}, e.table(*other))
                                                   : e.emit(kObjectPoint, {}));
-  e.output("Camera", e.emit(kCameraPoint, {}));
+  e.output("Camera", e.emit(world ? kCameraDirection : kCameraPoint, {}));
   e.output("Reflection", e.emit(kReflection, {}));
 }
 
@@ -155,6 +160,36 @@ void emit_camera(NodeEmitter& e) {
   e.output("View Distance", e.emit(pure<[](vec3 v) { return glm::length(v); }>, {p}));
 }
 
+// --- Light Path ----------------------------------------------------------------------------------
+
+constexpr std::string_view kLightPath[] = {
+    "Is Camera Ray",      "Is Shadow Ray",     "Is Diffuse Ray",      "Is Glossy Ray",
+    "Is Singular Ray",    "Is Reflection Ray", "Is Transmission Ray", "Is Volume Scatter Ray",
+    "Ray Length",         "Ray Depth",         "Diffuse Depth",       "Glossy Depth",
+    "Transmission Depth", "Transparent Depth", "Portal Depth"};
+
+// A world has a program for each type of ray, with the answers as constants. As in Cycles, what
+// glass lets through is a glossy ray, too. The types do not tell mirrors from rough surfaces, nor
+// count bounces: those outputs are named as not supported.
+void emit_light_path(NodeEmitter& e) {
+  if (!e.world_ray()) {
+    return;
+  }
+  const RayType ray = *e.world_ray();
+  const auto answer = [&](std::string_view output, bool yes) {
+    e.output(output, e.constant(yes ? 1.0f : 0.0f));
+  };
+  const bool diffuse = ray == RayType::Diffuse, glossy = ray == RayType::Glossy;
+  const bool transmission = ray == RayType::Transmission;
+  answer("Is Camera Ray", ray == RayType::Camera);
+  answer("Is Shadow Ray", false);
+  answer("Is Diffuse Ray", diffuse);
+  answer("Is Glossy Ray", glossy || transmission);
+  answer("Is Reflection Ray", diffuse || glossy);
+  answer("Is Transmission Ray", transmission);
+  answer("Is Volume Scatter Ray", false);
+}
+
 // --- Fresnel, Layer Weight -----------------------------------------------------------------------
 
 constexpr SocketDecl kFresnelInputs[] = {{"IOR", Float, 1.5f},
@@ -202,6 +237,7 @@ std::span<const NodeDecl> input_nodes() {
       {"NEW_GEOMETRY", {}, kGeometry, &emit_geometry},
       {"OBJECT_INFO", {}, kObject, &emit_object},
       {"CAMERA", {}, kCamera, &emit_camera},
+      {"LIGHT_PATH", {}, kLightPath, &emit_light_path},
       {"FRESNEL", kFresnelInputs, kFactor, &emit_fresnel},
       {"LAYER_WEIGHT", kLayerInputs, kLayer, &emit_layer_weight},
   };
