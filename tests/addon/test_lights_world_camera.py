@@ -228,11 +228,52 @@ def test_world_without_its_image(scene, core):
         assert "Environment Texture" in message and "missing" in message
 
 
-def test_unsupported_projection_is_named(scene, core):
-    environment(scene, picture(np.ones((2, 4, 4)))).projection = "MIRROR_BALL"
+def test_unsupported_nodes_of_worlds_are_named(scene, core):
+    texture = environment(scene, picture(np.ones((2, 4, 4))))
+    texture.projection = "MIRROR_BALL"
+    tree = scene.world.node_tree
+    noise = tree.nodes.new("ShaderNodeTexNoise")
+    bpy.ops.render.render()
+    assert messages("WARNING") == []
+    tree.links.new(noise.outputs["Color"], texture.inputs["Vector"])
     bpy.ops.render.render()
     (message,) = messages("WARNING")
-    assert "Environment Texture" in message and "MIRROR_BALL" in message
+    assert "Sky" in message and "Noise Texture" in message and "TEX_NOISE" in message
+
+
+def test_world_of_nodes(scene, export):
+    """Flattened as materials are, with all its pictures; what Light Path is asked comes along."""
+    first = picture(np.ones((2, 4, 4)))
+    texture = environment(scene, first)
+    tree = scene.world.node_tree
+    other, mix = tree.nodes.new("ShaderNodeTexEnvironment"), tree.nodes.new("ShaderNodeMixShader")
+    other.image = picture(np.ones((2, 4, 4)))
+    path, second = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeBackground")
+    inner = bpy.data.node_groups.new("Inner", "ShaderNodeTree")
+    inner.interface.new_socket("Sky", in_out="OUTPUT", socket_type="NodeSocketColor")
+    bright = inner.nodes.new("ShaderNodeHueSaturation")
+    inner.links.new(bright.outputs[0], inner.nodes.new("NodeGroupOutput").inputs[0])
+    group = tree.nodes.new("ShaderNodeGroup")
+    group.node_tree = inner
+    tree.links.new(other.outputs[0], second.inputs["Color"])
+    tree.links.new(group.outputs[0], texture.inputs["Vector"])
+    tree.links.new(path.outputs["Is Camera Ray"], mix.inputs[0])
+    tree.links.new(tree.nodes["Background"].outputs[0], mix.inputs[1])
+    tree.links.new(second.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
+    recorder = export()
+    nodes = {node["name"]: node for node in recorder.world["graph"]["nodes"]}
+    kinds = sorted(node["type"] for node in nodes.values())
+    assert kinds == sorted(
+        ["MIX_SHADER", "LIGHT_PATH", "BACKGROUND", "BACKGROUND", "HUE_SAT"]
+        + 2 * ["TEX_ENVIRONMENT"]
+    )
+    top = nodes[recorder.world["graph"]["surface"]["link"][0]]
+    assert top["inputs"]["Fac"]["link"] == ["Light Path", "Is Camera Ray"]
+    assert "Group/Hue/Saturation/Value" in nodes
+    used = {n["properties"]["image"] for n in nodes.values() if n["type"] == "TEX_ENVIRONMENT"}
+    assert used == set(recorder.images) and len(used) == 2
+    assert messages("WARNING") == []
 
 
 def test_material_without_nodes(scene, export):

@@ -51,29 +51,30 @@ class ConstantEnvironment final : public InfiniteLight {
   Rgb radiance_;
 };
 
-// A world of a picture. Emission and illumination draw from the same directions.
-class ImageEnvironment final : public InfiniteLight {
+// A world that varies: EnvironmentMap, ProgramSky. Emission and illumination draw from the same
+// directions.
+template <class Sky>
+class VaryingEnvironment final : public InfiniteLight {
  public:
-  ImageEnvironment(EnvironmentMap map, const Sphere& scene)
-      : InfiniteLight(scene), map_(std::move(map)) {
+  VaryingEnvironment(Sky sky, const Sphere& scene) : InfiniteLight(scene), sky_(std::move(sky)) {
     name = "World";
   }
 
-  float power() const override { return map_.total() * scene_.area(); }
+  float power() const override { return sky_.total() * scene_.area(); }
 
   bool hittable() const override { return true; }
 
   std::vector<Emitter> emitters() const override {
     Emitter e;
     e.infinite = true;
-    e.strength = 0.5f * map_.total();  // a surface sees half of the directions
+    e.strength = 0.5f * sky_.total();  // a surface sees half of the directions
     return {e};
   }
 
   std::optional<EmissionSample> sample_emission(vec2 u_position, vec2 u_direction) const override {
-    const vec3 to_light = map_.sample(u_direction);
-    const float pdf = map_.pdf_solid(to_light);
-    const Rgb radiance = map_.radiance(to_light);
+    const vec3 to_light = sky_.sample(u_direction);
+    const float pdf = sky_.pdf_solid(to_light);
+    const Rgb radiance = sky_.radiance(to_light);
     if (!(pdf > 0.0f) || is_black(radiance)) {
       return std::nullopt;
     }
@@ -82,9 +83,9 @@ class ImageEnvironment final : public InfiniteLight {
 
   std::optional<IlluminationSample> sample_illumination(vec3 receiver, uint32_t /*primitive*/,
                                                         vec2 u) const override {
-    const vec3 wi = map_.sample(u);
-    const float pdf = map_.pdf_solid(wi);
-    const Rgb radiance = map_.radiance(wi);
+    const vec3 wi = sky_.sample(u);
+    const float pdf = sky_.pdf_solid(wi);
+    const Rgb radiance = sky_.radiance(wi);
     if (!(pdf > 0.0f) || is_black(radiance)) {
       return std::nullopt;
     }
@@ -93,23 +94,23 @@ class ImageEnvironment final : public InfiniteLight {
 
   float pdf_illumination(const EmissionSample& sample, vec3 /*endpoint*/,
                          vec3 /*receiver*/) const override {
-    return map_.pdf_solid(-sample.direction);
+    return sky_.pdf_solid(-sample.direction);
   }
 
   std::optional<LightHit> intersect(const Ray& ray) const override {
     if (ray.t_max < kInfinity) {
       return std::nullopt;
     }
-    const Rgb radiance = map_.radiance(ray.direction);
+    const Rgb radiance = sky_.radiance(ray.direction);
     if (is_black(radiance)) {
       return std::nullopt;
     }
-    const float pdf = map_.pdf_solid(ray.direction);
+    const float pdf = sky_.pdf_solid(ray.direction);
     return LightHit{kInfinity, radiance, pdf, density(pdf), kInfinity};
   }
 
  private:
-  EnvironmentMap map_;
+  Sky sky_;
 };
 
 }  // namespace
@@ -119,7 +120,11 @@ std::unique_ptr<Light> make_environment_light(Rgb radiance, const Sphere& scene)
 }
 
 std::unique_ptr<Light> make_environment_light(EnvironmentMap map, const Sphere& scene) {
-  return std::make_unique<ImageEnvironment>(std::move(map), scene);
+  return std::make_unique<VaryingEnvironment<EnvironmentMap>>(std::move(map), scene);
+}
+
+std::unique_ptr<Light> make_environment_light(ProgramSky sky, const Sphere& scene) {
+  return std::make_unique<VaryingEnvironment<ProgramSky>>(std::move(sky), scene);
 }
 
 }  // namespace janus

@@ -7,6 +7,7 @@
 
 #include "janus/light/environment_map.h"
 #include "janus/light/light.h"
+#include "janus/light/program_sky.h"
 #include "janus/scene/description.h"
 
 namespace janus {
@@ -25,9 +26,10 @@ struct Sphere {
 };
 std::unique_ptr<Light> make_sun_light(const LightDesc& desc, Rgb strength, const Sphere& scene);
 
-// A world of constant radiance, or of a picture.
+// A world of constant radiance, of a picture, or of a program.
 std::unique_ptr<Light> make_environment_light(Rgb radiance, const Sphere& scene);
 std::unique_ptr<Light> make_environment_light(EnvironmentMap map, const Sphere& scene);
+std::unique_ptr<Light> make_environment_light(ProgramSky sky, const Sphere& scene);
 
 // Colour times power of a lamp, in watts.
 inline Rgb lamp_power(const LightDesc& desc, Rgb strength) {

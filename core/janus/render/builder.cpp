@@ -21,6 +21,19 @@ bool is_finite(const mat4& m) {
   return true;
 }
 
+// From the world to the camera, which looks along +z in Cycles; panoramas look along +x, with +z
+// up.
+mat4 to_camera(const CameraDesc& camera) {
+  mat4 turn(1.0f);
+  turn[2][2] = -1.0f;
+  if (camera.type == CameraType::Equirectangular) {
+    turn = mat4(0.0f);
+    turn[0][1] = turn[2][0] = -1.0f;
+    turn[1][2] = turn[3][3] = 1.0f;
+  }
+  return turn * glm::inverse(camera.transform);
+}
+
 // One commit: fills a Scene step by step, in the order in which the parts need each other.
 class Commit {
  public:
@@ -84,13 +97,11 @@ class Commit {
   }
 
   void set_objects(const CameraDesc& camera) {
-    mat4 flip(1.0f);
-    flip[2][2] = -1.0f;  // Cycles' camera looks along its +z
     const float pixel =
         camera.pixel_size > 0.0f ? camera.pixel_size : 1e-3f * (camera.top - camera.bottom);
     const bool parallel = camera.type == CameraType::Orthographic;
     scene_.surfaces.set_objects(
-        scene_.meshes, scene_.instances, flip * glm::inverse(camera.transform),
+        scene_.meshes, scene_.instances, to_camera(camera),
         {vec3(camera.transform[3]), parallel ? 0.0f : pixel, parallel ? pixel : 0.0f});
   }
 
@@ -134,28 +145,10 @@ class Commit {
     }
   }
 
-  void add_world(const WorldDesc& world, const std::map<std::string, ImageDesc>& images) {
-    if (!world.graph) {
-      return;
-    }
-    const auto add = [&](std::unique_ptr<Light> light) {
-      light->visibility = world.visibility;
-      light->background = true;
+  void add_world(const WorldDesc& world, const ImageMap& images, const CameraDesc& camera) {
+    for (auto& light : make_world(world, images, to_camera(camera), surroundings(),
+                                  scene_.diagnostics, cancel_)) {
       add_light(std::move(light));
-    };
-    if (auto map = compile_world_map(world, images, scene_.diagnostics)) {
-      if (!map->black()) {
-        add(make_environment_light(std::move(*map), surroundings()));
-      }
-      return;
-    }
-    const Program program = compile(*world.graph, world.name, images, scene_.diagnostics);
-    if (!program.lobes.empty()) {
-      scene_.diagnostics.push_back(
-          {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
-    }
-    if (const Rgb radiance = everywhere(program, world.name); !is_black(radiance)) {
-      add(make_environment_light(radiance, surroundings()));
     }
   }
 
@@ -178,12 +171,12 @@ class Commit {
     scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
   }
 
-  // What the program of a lamp or a world emits, which should be the same everywhere.
+  // What the program of a lamp emits, which should be the same everywhere.
   Rgb everywhere(const Program& program, const std::string& name) {
     if (!program.constant()) {
       scene_.diagnostics.push_back({Severity::Warning, "", name, "",
                                     "light that varies with place or direction is not supported "
-                                    "yet for lamps and worlds; it is left out"});
+                                    "yet for lamps; it is left out"});
     }
     return program.emission;
   }
@@ -362,7 +355,7 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   commit.add_mesh_lights();
   commit.add_lamps(lights_);
   if (world_) {
-    commit.add_world(*world_, images_);
+    commit.add_world(*world_, images_, *camera_);
   }
   commit.finish();
   return scene;

@@ -4,18 +4,23 @@
 #include <algorithm>
 
 #include "janus/math/warp.h"
+#include "janus/shading/closures.h"
+#include "janus/shading/node_reader.h"
 
 namespace janus {
 
 namespace {
 
-class WorldCompiler {
+// The world that is a lat-long picture: Environment Texture -> Background, the texture's vector
+// unlinked or from Texture Coordinate (Generated), by way of a Mapping that only turns. Its pixels
+// are sampled exactly, and looked up without a program.
+class PictureOfWorld {
  public:
-  WorldCompiler(const WorldDesc& world, const std::map<std::string, ImageDesc>& images,
-                Diagnostics& diagnostics)
+  PictureOfWorld(const WorldDesc& world, const ImageMap& images, Diagnostics& diagnostics)
       : world_(world), images_(images), diagnostics_(diagnostics) {}
 
-  std::optional<EnvironmentMap> compile() {
+  // nullopt: it is another graph, which compile() knows.
+  std::optional<EnvironmentMap> find() {
     const Node* shader =
         world_.graph->surface ? world_.graph->find(world_.graph->surface->node) : nullptr;
     if (!shader || (shader->type != "BACKGROUND" && shader->type != "EMISSION")) {
@@ -26,15 +31,11 @@ class WorldCompiler {
     if (!texture || texture->type != "TEX_ENVIRONMENT" || color->output != "Color") {
       return std::nullopt;
     }
-    const float strength = std::max(0.0f, number(*shader, "Strength"));
-    return map(*texture, Rgb(strength));
+    const auto strength = constant(*shader, "Strength", 1.0f);
+    return strength ? map(*texture, Rgb(std::max(0.0f, *strength))) : std::nullopt;
   }
 
  private:
-  void warn(const Node& node, const std::string& message) {
-    diagnostics_.push_back({Severity::Warning, "", world_.name, node.name, message});
-  }
-
   static const NodeInput* input(const Node& node, const std::string& identifier) {
     const auto it = node.inputs.find(identifier);
     return it == node.inputs.end() ? nullptr : &it->second;
@@ -52,38 +53,30 @@ class WorldCompiler {
     return value ? *value : std::string();
   }
 
-  float number(const Node& node, const std::string& identifier) {
+  // A finite number or vector, by default `fallback`; nullopt: something else.
+  template <class T>
+  static std::optional<T> constant(const Node& node, const std::string& identifier, T fallback) {
     const NodeInput* value = input(node, identifier);
-    if (const auto* x = value ? std::get_if<float>(value) : nullptr; x && std::isfinite(*x)) {
-      return *x;
+    if (!value) {
+      return fallback;
     }
-    if (value) {
-      warn(node, "the input '" + identifier + "' is linked or not a number; 1 is used");
-    }
-    return 1.0f;
+    const T* found = std::get_if<T>(value);
+    return found && is_finite(vec3(*found)) ? std::optional(*found) : std::nullopt;
   }
 
-  EnvironmentMap map(const Node& texture, Rgb scale) {
-    if (const std::string projection = text(texture, "projection");
-        !projection.empty() && projection != "EQUIRECTANGULAR") {
-      warn(texture, "the projection " + projection +
-                        " is not supported yet; the picture is read as EQUIRECTANGULAR");
-    }
+  std::optional<EnvironmentMap> map(const Node& texture, Rgb scale) {
+    const std::string projection = text(texture, "projection");
     const std::string name = text(texture, "interpolation");
-    if (!name.empty() && name != "Linear" && name != "Closest") {
-      warn(texture, "the interpolation " + name + " is not supported yet; Linear is used");
+    const auto to_image = coordinates(texture);
+    const auto it = images_.find(text(texture, "image"));
+    if ((!projection.empty() && projection != "EQUIRECTANGULAR") ||
+        (!name.empty() && name != "Linear" && name != "Closest") || !to_image ||
+        it == images_.end() || !it->second.pixels || it->second.pixels->pixels.empty()) {
+      return std::nullopt;
     }
     const auto interpolation = name == "Closest" ? Interpolation::Closest : Interpolation::Linear;
-    const mat3 to_image = coordinates(texture);
-    const auto it = images_.find(text(texture, "image"));
-    if (it == images_.end() || !it->second.pixels || it->second.pixels->pixels.empty()) {
-      warn(texture, "its image is missing; it is rendered magenta, as in Cycles");
-      auto missing = std::make_shared<Image>(1, 1, 3);
-      missing->pixels = {1.0f, 0.0f, 1.0f};
-      return {missing, false, interpolation, scale, to_image};
-    }
     const ImageDesc& image = it->second;
-    return {finite(texture, image), image.srgb, interpolation, scale, to_image};
+    return EnvironmentMap(finite(texture, image), image.srgb, interpolation, scale, *to_image);
   }
 
   // The pixels, or a copy without those that are no numbers.
@@ -93,59 +86,53 @@ class WorldCompiler {
     if (std::none_of(pixels.begin(), pixels.end(), bad)) {
       return image.pixels;
     }
-    warn(texture, "the image '" + image.name +
-                      "' holds values that are not finite; they are rendered black");
+    warn(
+        diagnostics_, world_.name, texture,
+        "the image '" + image.name + "' holds values that are not finite; they are rendered black");
     auto copy = std::make_shared<Image>(*image.pixels);
     std::replace_if(copy->pixels.begin(), copy->pixels.end(), bad, 0.0f);
     return copy;
   }
 
-  // From directions of the world to those of the picture.
-  mat3 coordinates(const Node& texture) {
+  // From directions of the world to those of the picture, if that is a turn.
+  std::optional<mat3> coordinates(const Node& texture) {
     const NodeLink* source = link(texture, "Vector");
     if (!source) {
       return mat3(1.0f);
     }
     const Node* node = world_.graph->find(source->node);
-    if (!node) {
+    if (node && is_direction(*node, *source)) {
       return mat3(1.0f);
     }
-    if (is_direction(*node, *source)) {
-      return mat3(1.0f);
-    }
-    const NodeLink* inner = node->type == "MAPPING" ? link(*node, "Vector") : nullptr;
+    const NodeLink* inner = node && node->type == "MAPPING" ? link(*node, "Vector") : nullptr;
     const Node* origin = inner ? world_.graph->find(inner->node) : nullptr;
-    if (!origin || !is_direction(*origin, *inner)) {
-      warn(texture, "its vector comes from '" + node->name +
-                        "', which is not supported yet; the direction is used");
-      return mat3(1.0f);
-    }
-    return mapping(*node);
+    return origin && is_direction(*origin, *inner) ? mapping(*node) : std::nullopt;
   }
 
   static bool is_direction(const Node& node, const NodeLink& link) {
     return node.type == "TEX_COORD" && link.output == "Generated";
   }
 
-  mat3 mapping(const Node& node) {
-    const vec3 angles = constant(node, "Rotation", vec3(0.0f));
-    const vec3 scale = constant(node, "Scale", vec3(1.0f));
-    const float size = std::abs(scale.x);
-    const bool even = size > 0.0f && std::abs(std::abs(scale.y) - size) <= 1e-5f * size &&
-                      std::abs(std::abs(scale.z) - size) <= 1e-5f * size;
-    if (!even) {
-      warn(node, "an uneven scale of a world's picture is not supported yet; 1 is used");
+  static std::optional<mat3> mapping(const Node& node) {
+    const auto angles = constant(node, "Rotation", vec3(0.0f));
+    const auto scale = constant(node, "Scale", vec3(1.0f));
+    const auto location = constant(node, "Location", vec3(0.0f));
+    if (!angles || !scale || !location) {
+      return std::nullopt;
     }
+    const float size = std::abs(scale->x);
+    const bool even = size > 0.0f && std::abs(std::abs(scale->y) - size) <= 1e-5f * size &&
+                      std::abs(std::abs(scale->z) - size) <= 1e-5f * size;
     const std::string type = text(node, "vector_type");
-    const bool moves = type != "VECTOR" && type != "NORMAL";
-    if (moves && constant(node, "Location", vec3(0.0f)) != vec3(0.0f)) {
-      warn(node, "the location of a world's picture is not supported yet; 0 is used");
+    const bool moves = type != "VECTOR" && type != "NORMAL" && *location != vec3(0.0f);
+    if (!even || moves) {
+      return std::nullopt;
     }
     mat3 mirror(1.0f);
-    for (int i = 0; i < 3 && even; ++i) {
-      mirror[i][i] = scale[i] < 0.0f ? -1.0f : 1.0f;
+    for (int i = 0; i < 3; ++i) {
+      mirror[i][i] = (*scale)[i] < 0.0f ? -1.0f : 1.0f;
     }
-    const mat3 turn = about(2, angles.z) * about(1, angles.y) * about(0, angles.x);
+    const mat3 turn = about(2, angles->z) * about(1, angles->y) * about(0, angles->x);
     return type == "TEXTURE" ? mirror * glm::transpose(turn) : turn * mirror;
   }
 
@@ -159,29 +146,84 @@ class WorldCompiler {
     return m;
   }
 
-  vec3 constant(const Node& node, const std::string& identifier, vec3 fallback) {
-    const NodeInput* value = input(node, identifier);
-    if (!value) {
-      return fallback;
-    }
-    if (const auto* v = std::get_if<vec3>(value); v && is_finite(*v)) {
-      return *v;
-    }
-    warn(node, "the input '" + identifier + "' is linked or not finite; its default is used");
-    return fallback;
-  }
-
   const WorldDesc& world_;
-  const std::map<std::string, ImageDesc>& images_;
+  const ImageMap& images_;
   Diagnostics& diagnostics_;
 };
 
+// The program of a world, and the rays that see it: the camera's, or with a label at their end.
+struct Part {
+  Program program;
+  RayMask seen_by;
+};
+
+// One program for each answer that Light Path gives.
+std::vector<Part> parts(const WorldDesc& world, const ImageMap& images, Diagnostics& diagnostics) {
+  constexpr RayType kRays[] = {RayType::Camera, RayType::Diffuse, RayType::Glossy,
+                               RayType::Transmission};
+  const bool by_ray = std::ranges::any_of(
+      world.graph->nodes, [](const Node& node) { return node.type == "LIGHT_PATH"; });
+  std::vector<Part> parts;
+  for (const RayType ray : kRays) {
+    if (!by_ray && !parts.empty()) {
+      break;
+    }
+    Program program = compile(*world.graph, world.name, images, diagnostics, ray);
+    const auto same = std::ranges::find_if(
+        parts, [&](const Part& part) { return part.program.emits_like(program); });
+    if (same != parts.end()) {
+      same->seen_by |= ray_bit(ray);
+    } else {
+      parts.push_back({std::move(program), ray_bit(ray)});
+    }
+  }
+  if (parts.size() == 1) {
+    parts[0].seen_by = kAllRays;
+  }
+  return parts;
+}
+
+bool scatters(const Program& program) {
+  const auto scatters = [](const Closure& c) { return c.decl->traits.lobes > 0; };
+  return !program.lobes.empty() || std::ranges::any_of(program.closures, scatters);
+}
+
 }  // namespace
 
-std::optional<EnvironmentMap> compile_world_map(const WorldDesc& world,
-                                                const std::map<std::string, ImageDesc>& images,
-                                                Diagnostics& diagnostics) {
-  return WorldCompiler(world, images, diagnostics).compile();
+std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const ImageMap& images,
+                                               const mat4& to_camera, const Sphere& scene,
+                                               Diagnostics& diagnostics,
+                                               const CancelToken& cancel) {
+  std::vector<std::unique_ptr<Light>> lights;
+  const auto add = [&](std::unique_ptr<Light> light, RayMask seen_by) {
+    light->visibility = world.visibility & seen_by;
+    light->background = true;
+    lights.push_back(std::move(light));
+  };
+  if (!world.graph) {
+    return lights;
+  }
+  if (auto map = PictureOfWorld(world, images, diagnostics).find()) {
+    if (!map->black()) {
+      add(make_environment_light(std::move(*map), scene), kAllRays);
+    }
+    return lights;
+  }
+  std::vector<Part> all = parts(world, images, diagnostics);
+  if (std::ranges::any_of(all, [](const Part& part) { return scatters(part.program); })) {
+    diagnostics.push_back(
+        {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
+  }
+  for (auto& [program, seen_by] : all) {
+    if (program.varying_emission) {
+      const bool sampled = (world.visibility & seen_by & kLabels) != 0;
+      add(make_environment_light(ProgramSky(std::move(program), to_camera, sampled, cancel), scene),
+          seen_by);
+    } else if (!is_black(program.emission)) {
+      add(make_environment_light(program.emission, scene), seen_by);
+    }
+  }
+  return lights;
 }
 
 }  // namespace janus

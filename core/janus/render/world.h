@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <map>
-#include <optional>
-#include <string>
+#include <memory>
+#include <vector>
 
-#include "janus/light/environment_map.h"
+#include "janus/light/lamps.h"
 #include "janus/scene/description.h"
 #include "janus/scene/diagnostics.h"
+#include "janus/shading/compiler.h"
+#include "janus/util/cancel.h"
 
 namespace janus {
 
-// The world that is a lat-long picture: Environment Texture -> Background, the texture's vector
-// unlinked or from Texture Coordinate (Generated), by way of a Mapping that only turns. nullopt for
-// any other graph, which compile() knows better. What is not as asked becomes a Diagnostic.
-std::optional<EnvironmentMap> compile_world_map(const WorldDesc& world,
-                                                const std::map<std::string, ImageDesc>& images,
-                                                Diagnostics& diagnostics);
+// The lights that a world is: none where it is black, one for each answer where its tree asks by
+// what rays it is seen (Light Path), each visible to those alone; else one. `to_camera`: from the
+// world to a camera that looks along +z. What cannot be rendered as asked becomes a Diagnostic.
+std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const ImageMap& images,
+                                               const mat4& to_camera, const Sphere& scene,
+                                               Diagnostics& diagnostics, const CancelToken& cancel);
 
 }  // namespace janus

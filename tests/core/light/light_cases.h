@@ -79,6 +79,38 @@ inline Image sky() {
   return image;
 }
 
+// By nodes: the picture above, times the square of the height, and a sharp spot of its own; black
+// below the horizon.
+inline NodeGraph sky_of_nodes(float strength = 1.0f) {
+  const auto math = [](const char* name, const char* operation, const NodeInput& a,
+                       const NodeInput& b) {
+    Node n = node(name, "MATH", {{"Value", a}, {"Value_001", b}});
+    n.properties = {{"operation", std::string(operation)}};
+    return n;
+  };
+  NodeGraph graph =
+      single("BACKGROUND", {{"Color", link("Times", "Vector")}, {"Strength", strength}});
+  Node times = node("Times", "VECT_MATH",
+                    {{"Vector", link("Map", "Color")}, {"Scale", link("Sum", "Value")}});
+  times.properties = {{"operation", std::string("SCALE")}};
+  Node map = node("Map", "TEX_ENVIRONMENT", {});
+  map.properties = {{"image", std::string("image")}};
+  graph.nodes.insert(graph.nodes.end(),
+                     {times, map, node("Where", "TEX_COORD", {}),
+                      node("Split", "SEPXYZ", {{"Vector", link("Where", "Generated")}}),
+                      math("Above", "MAXIMUM", link("Split", "Z"), 0.0f),
+                      math("Square", "MULTIPLY", link("Above", "Value"), link("Above", "Value")),
+                      math("Spot", "GREATER_THAN", link("Split", "Z"), 0.95f),
+                      math("Bright", "MULTIPLY", link("Spot", "Value"), 20.0f),
+                      math("Sum", "ADD", link("Square", "Value"), link("Bright", "Value"))});
+  return graph;
+}
+inline SceneKit world_of_nodes(SceneKit kit) {
+  kit.builder.set_image("image", {"Sky", std::make_shared<Image>(sky()), false});
+  kit.builder.set_world({"World", sky_of_nodes()});
+  return kit;
+}
+
 inline const LightCase kLightCases[] = {
     {.name = "point",
      .make = [] { return lamp(point_light({0.2f, 0.1f, 1}, 7)); },
@@ -182,6 +214,9 @@ inline const LightCase kLightCases[] = {
            Node turn = node("Turn", "MAPPING", {{"Rotation", vec3(0.3f, -0.5f, 1.0f)}});
            return around().world(sky(), 0.5f, "Closest", turn);
          },
+     .projected = of_scene},
+    {.name = "world_of_nodes",
+     .make = [] { return world_of_nodes(around()); },
      .projected = of_scene},
 };
 

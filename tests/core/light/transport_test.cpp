@@ -44,6 +44,17 @@ const TransportCase kCases[] = {
     {"sun", [] { return room().light("l", sun_light({0.2f, -1, 0.5f}, 3, 0)); }, 32},
     {"sun_disk", [] { return room().light("l", sun_light({0.2f, -1, 0.5f}, 3, 0.5f)); }, 40},
     {"world_image", [] { return room().world(sky()); }, 128},
+    {"world_of_nodes",  // a light from behind the camera and from above: through the open side
+     [] {
+       return world_of_nodes(
+           SceneKit()
+               .add("floor", plane(3, 3), diffuse(Rgb(0.7f, 0.6f, 0.5f)), translation({0, 0, -1}))
+               .add("block", cuboid({-0.7f, -0.2f, -1}, {-0.2f, 0.4f, 0.1f}), diffuse(Rgb(0.7f)))
+               .add("wall", plane(2, 2), diffuse(Rgb(0.4f, 0.5f, 0.6f)),
+                    translation({0.4f, 0.9f, 0}) * rotation({1, 0, 0}, 0.5f * kPi))
+               .camera({0, -3, 0.8f}, {0, 0, -0.5f}));
+     },
+     96},
     {"area_narrow",
      [] { return room().light("l", area_light({0, 0, 0.95f}, {0.1f, 0, 0}, 1.2f, 20, 0.6f)); }, 48},
     {"many",  // all at once: the choice of lights matters

@@ -9,6 +9,7 @@
 
 #include "janus/util/error.h"
 #include "support/scene_kit.h"
+#include "support/statistics.h"
 
 namespace janus::test {
 namespace {
@@ -231,25 +232,96 @@ TEST(Builder, WorldPictureFindings) {
   missing.builder.remove("image");
   findings(missing, "Map", "missing");
   black_hole.pixels[4] = 1.0f;
-  findings(SceneKit().world(black_hole, 1, "Cubic"), "Map", "Cubic");
   const auto turn = [](std::map<std::string, NodeInput> inputs) {
     return node("Turn", "MAPPING", std::move(inputs));
   };
-  findings(SceneKit().world(black_hole, 1, "Linear", turn({{"Location", vec3(1, 0, 0)}})), "Turn",
-           "location");
-  findings(SceneKit().world(black_hole, 1, "Linear", turn({{"Scale", vec3(1, 2, 1)}})), "Turn",
-           "scale");
   findings(SceneKit().world(black_hole, 1, "Linear", turn({{"Rotation", vec3(NAN)}})), "Turn",
-           "Rotation");
-  Node noise = node("Noise", "TEX_NOISE", {});
-  findings(SceneKit().world(black_hole, 1, "Linear", noise), "Map", "Noise");
+           "not a finite number");
+  findings(SceneKit().world(black_hole, 1, "Linear", node("Noise", "TEX_NOISE", {})), "Noise",
+           "TEX_NOISE");
   // Neither black nor negative pictures shine.
   EXPECT_TRUE(SceneKit().world(negative).build()->lights.empty());
   EXPECT_TRUE(SceneKit().world(Image(4, 2, 3)).build()->lights.empty());
   EXPECT_TRUE(SceneKit().world(black_hole, 0).build()->lights.empty());
 }
 
-// A lamp or a world whose light varies is not black without a word.
+// The tree of a world becomes a program; it is the picture where that says the same.
+TEST(Builder, WorldOfNodes) {
+  Image picture(8, 4, 3);
+  for (size_t i = 0; i < picture.pixels.size(); ++i) {
+    picture.pixels[i] = 0.1f + 0.01f * static_cast<float>(i % 31);
+  }
+  const auto lights = [](const SceneKit& kit) {
+    const auto scene = kit.build();
+    EXPECT_TRUE(scene->diagnostics.empty());
+    EXPECT_EQ(scene->lights.size(), 1u);
+    return scene;
+  };
+  const auto turn = [](vec3 angles, float last) {
+    return node("Turn", "MAPPING", {{"Rotation", angles}, {"Scale", vec3(1, 1, last)}});
+  };
+  const vec3 angles(0.3f, -0.2f, 0.7f);
+  for (const char* interpolation : {"Linear", "Closest"}) {
+    const auto map = lights(SceneKit().world(picture, 2, interpolation, turn(angles, 1)));
+    const auto program = lights(SceneKit().world(picture, 2, interpolation, turn(angles, 1.0001f)));
+    const Light &a = *map->lights[0], &b = *program->lights[0];
+    EXPECT_NEAR(b.power() / a.power(), 1, 0.02);
+    Random random(5);
+    int differ = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const Ray ray{vec3(0), random.direction()};
+      const Rgb x = a.intersect(ray)->radiance, y = b.intersect(ray)->radiance;
+      differ += length2(x - y) > 1e-6f ? 1 : 0;
+    }
+    EXPECT_LT(differ, 5) << interpolation;  // at the edges of pixels
+  }
+  lights(SceneKit().world(picture, 1, "Cubic"));
+  lights(SceneKit().world(picture, 1, "Linear",
+                          node("Turn", "MAPPING", {{"Location", vec3(1, 0, 0)}})));
+}
+
+// One light for each answer of Light Path, seen by those rays alone.
+TEST(Builder, WorldByRayType) {
+  const auto masks = [](const char* output, NodeInput strength, RayMask visibility = kAllRays) {
+    NodeGraph graph =
+        combine("MIX_SHADER", single("BACKGROUND", {{"Color", vec4(1, 0, 0, 1)}}),
+                single("BACKGROUND", {{"Color", vec4(0, 1, 0, 1)}, {"Strength", strength}}));
+    graph.nodes.back().inputs["Fac"] = link("Path", output);
+    graph.nodes.push_back(node("Path", "LIGHT_PATH", {}));
+    SceneKit kit;
+    kit.builder.set_world({"World", graph, visibility});
+    const auto scene = kit.build();
+    std::vector<std::pair<Rgb, int>> found;
+    for (const auto& light : scene->lights) {
+      EXPECT_TRUE(light->background);
+      const auto hit = light->intersect(Ray{vec3(0), vec3(0, 0, 1)});
+      found.emplace_back(hit->radiance, light->visibility & (kLabels | ray_bit(RayType::Camera)));
+    }
+    const bool known = std::string(output) != "Ray Depth";
+    EXPECT_EQ(scene->diagnostics.size(), known ? 0u : 1u);
+    return found;
+  };
+  using Found = std::vector<std::pair<Rgb, int>>;
+  const int camera = ray_bit(RayType::Camera), diffuse = ray_bit(RayType::Diffuse);
+  const int glossy = ray_bit(RayType::Glossy), through = ray_bit(RayType::Transmission);
+  const Rgb red(1, 0, 0), green(0, 1, 0);
+  EXPECT_EQ(masks("Is Camera Ray", 1.0f), (Found{{green, camera}, {red, kLabels}}));
+  EXPECT_EQ(masks("Is Camera Ray", 0.0f), (Found{{red, kLabels}}));  // black is no light
+  EXPECT_EQ(masks("Is Diffuse Ray", 1.0f),
+            (Found{{red, camera | glossy | through}, {green, diffuse}}));
+  EXPECT_EQ(masks("Is Glossy Ray", 1.0f),
+            (Found{{red, camera | diffuse}, {green, glossy | through}}));
+  EXPECT_EQ(masks("Is Reflection Ray", 1.0f),
+            (Found{{red, camera | through}, {green, diffuse | glossy}}));
+  EXPECT_EQ(masks("Is Transmission Ray", 1.0f),
+            (Found{{red, camera | diffuse | glossy}, {green, through}}));
+  EXPECT_EQ(masks("Is Shadow Ray", 1.0f), (Found{{red, camera | kLabels}}));
+  EXPECT_EQ(masks("Is Glossy Ray", 1.0f, kAllRays & ~glossy),
+            (Found{{red, camera | diffuse}, {green, through}}));
+  EXPECT_EQ(masks("Ray Depth", 1.0f).size(), 1u);  // named, and a constant
+}
+
+// A lamp whose light varies is not black without a word.
 TEST(Builder, NamesLightThatVaries) {
   NodeGraph varying = emission(Rgb(1), 1);
   varying.nodes[0].inputs["Color"] = link("Where", "Position");
@@ -259,17 +331,13 @@ TEST(Builder, NamesLightThatVaries) {
   lamp.name = "Lamp";
   lamp.graph = varying;
   kit.light("lamp", lamp);
-  WorldDesc world;
-  world.name = "World";
-  world.graph = varying;
-  kit.builder.set_world(world);
   const auto scene = kit.build();
   std::vector<std::string> named;
   for (const Diagnostic& d : scene->diagnostics) {
     EXPECT_NE(d.message.find("varies"), std::string::npos) << d.message;
     named.push_back(d.material);
   }
-  EXPECT_EQ(named, (std::vector<std::string>{"Lamp", "World"}));
+  EXPECT_EQ(named, (std::vector<std::string>{"Lamp"}));
 }
 
 }  // namespace

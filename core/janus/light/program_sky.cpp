@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/light/program_sky.h"
+
+#include <algorithm>
+
+#include "janus/image/latlong.h"
+#include "janus/util/parallel.h"
+
+namespace janus {
+
+namespace {
+
+// Columns of the grid of brightness: as many as the widest picture has, within limits.
+constexpr int kLeastColumns = 1024, kMostColumns = 2048;
+
+constexpr float kMost = 1e20f;  // sums of it are finite
+
+// Of all directions, this share is drawn whatever the grid says.
+constexpr double kUniformShare = 0.01;
+
+int widest_picture(const Program& program) {
+  int width = 0;
+  for (const auto& texture : program.textures) {
+    width = std::max(width, texture->image->width);
+  }
+  return width;
+}
+
+// No object, as programs see it.
+ObjectData no_object(const mat4& to_camera) {
+  ObjectData object;
+  object.to_camera = to_camera;
+  object.from_camera = glm::inverse(to_camera);
+  object.color = vec4(0.0f);
+  return object;
+}
+
+}  // namespace
+
+ProgramSky::ProgramSky(Program program, const mat4& to_camera, bool sampled,
+                       const CancelToken& cancel)
+    : program_(std::move(program)),
+      surroundings_(no_object(to_camera)),
+      map_(measure(sampled, cancel)) {}
+
+Rgb ProgramSky::radiance(vec3 direction) const {
+  ShadingPoint point{};
+  point.p = direction;
+  point.ng = point.ns = point.view = point.object_normal = -direction;
+  point.object = &surroundings_;
+  point.footprint = 1e-3f;
+  ShadingResult result;
+  program_.run(point, result);
+  return is_finite(result.emission) ? result.emission : Rgb(0.0f);
+}
+
+// The mean of each cell over points on its edges, or inside, too: no line between bright and dark
+// is missed, as happens where one looks at the middles alone.
+EnvironmentMap ProgramSky::measure(bool sampled, const CancelToken& cancel) const {
+  const int width = widest_picture(program_);
+  const int columns = sampled ? std::clamp(width, kLeastColumns, kMostColumns) : 4;
+  const int rows = columns / 2, steps = width > kMostColumns ? 2 : 1;
+  auto grid = std::make_shared<Image>(columns, rows, 3);
+  std::vector<double> brightness(rows);
+  ThreadPool pool(sampled ? 0 : 1);
+  pool.parallel_for(rows, [&](size_t row) {
+    cancel.throw_if_cancelled();
+    std::vector<float> cells(columns, 0.0f);
+    for (int j = 0; j <= steps; ++j) {
+      const double v = (static_cast<double>(row) + static_cast<double>(j) / steps) / rows;
+      for (int i = 0; i < columns * steps; ++i) {
+        const double u = static_cast<double>(i) / (columns * steps);
+        const float found =
+            std::min(luminance(radiance(latlong_to_direction(u, latlong_z(v)))), kMost);
+        cells[i / steps] += found;
+        if (i % steps == 0) {  // the edge of the cell before, too
+          cells[(i / steps + columns - 1) % columns] += found;
+        }
+      }
+    }
+    const double height =
+        latlong_z((row + 1.0) / rows) - latlong_z(row / static_cast<double>(rows));
+    for (int i = 0; i < columns; ++i) {
+      const float mean = cells[i] / static_cast<float>((steps + 1) * (steps + 1));
+      brightness[row] += 0.5 * height / columns * mean;
+      std::fill_n(&grid->pixels[3 * (row * columns + i)], 3, mean);
+    }
+  });
+  double mean = 0.0;
+  for (const double b : brightness) {
+    mean += b;
+  }
+  const auto least = static_cast<float>(std::max(kUniformShare * mean, 1e-6));
+  for (float& x : grid->pixels) {
+    x += least;
+  }
+  return {std::move(grid), false, Interpolation::Closest, Rgb(1.0f), mat3(1.0f)};
+}
+
+}  // namespace janus
