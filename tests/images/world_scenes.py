@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cases for both.py: worlds whose node tree is more than a picture.
+"""Cases for both.py: a few things in the light of worlds whose node tree is more than a picture.
 
-VIEWS look at the world itself, all around, one sample in the middle of each pixel. LIT show a few
-things in its light. In those that ask by which ray they are seen, Cycles does not look for the
-world: where it does, it tells every ray that it is of none of the types.
+Where a world asks by which ray it is seen, Cycles does not look for it: where it does, it tells
+every ray that it is of none of the types. world_views.py has the same worlds to look at.
 """
 
 from __future__ import annotations
 
-SEEDS, SIZE, PANORAMA = 4, 24, (96, 48)
+SEEDS, SIZE = 4, 24
 
 
 def picture(name: str, seed: int, sun: bool = False):
@@ -122,37 +121,7 @@ def by_ray(output: str):
     return build
 
 
-def coordinate(node: str, output: str):
-    """An output as a colour, between 0 and 1."""
-
-    def build(t):
-        value = t.out(node, {}, output)
-        color = t.out(
-            "VectorMath", {0: value, 1: (0.2,) * 3, 2: (0.5,) * 3}, operation="MULTIPLY_ADD"
-        )
-        return background(t, color)
-
-    return build
-
-
-COORDINATES = [
-    *(("TexCoord", name) for name in ("Generated", "Normal", "UV", "Object", "Camera")),
-    ("TexCoord", "Reflection"),
-    *(("NewGeometry", name) for name in ("Position", "Normal", "True Normal", "Incoming")),
-    *(("NewGeometry", name) for name in ("Parametric", "Backfacing")),
-    *(("CameraData", name) for name in ("View Vector", "View Z Depth", "View Distance")),
-    *(("ObjectInfo", name) for name in ("Location", "Color", "Alpha", "Object Index", "Random")),
-    *(("LayerWeight", name) for name in ("Fresnel", "Facing")),
-]
 TREES = (gradient, mixed, graded, stretched, ball, cubic, flat, added, emission, sharp_sun)
-VIEWS = {
-    **{f"view_{tree.__name__}": tree for tree in TREES},
-    "view_by_camera": by_ray("Is Camera Ray"),
-    **{
-        f"view_{node}_{name}".lower().replace(" ", "_"): coordinate(node, name)
-        for node, name in COORDINATES
-    },
-}
 LIT = {
     "gradient": gradient,
     "mixed": mixed,
@@ -165,11 +134,11 @@ BY_RAY = {
     f"by_{name.lower()}": by_ray(f"Is {name} Ray")
     for name in ("Diffuse", "Glossy", "Reflection", "Transmission")
 }
-CASES = {**VIEWS, **LIT, **BY_RAY}
+CASES = {**LIT, **BY_RAY}
 
 
 def samples(name: str) -> int:
-    return 1 if name in VIEWS else 512 if name in BY_RAY else 192
+    return 512 if name in BY_RAY else 192
 
 
 def things(scene) -> None:
@@ -186,31 +155,29 @@ def things(scene) -> None:
     kit.camera(scene, (0.0, -4.0, 2.2), (0.0, 0.1, 0.3), lens=50.0)
 
 
-def build(name: str):
-    import bpy
-
+def set_tree(scene, shader) -> None:
+    """Gives the scene a world: shader(tree) makes its nodes and gives the last socket."""
     from scenes import kit
     from tests.images.node_cases import Tree
 
-    scene = bpy.context.scene
-    width, height = PANORAMA if name in VIEWS else (SIZE, SIZE)
-    kit.neutral_settings(scene, width, height, samples(name))
     kit.world(scene)
     tree = scene.world.node_tree
     tree.nodes.remove(tree.nodes["Background"])
     output = tree.get_output_node("CYCLES")
-    tree.links.new(CASES[name](Tree(tree)), output.inputs["Surface"])
-    if name in VIEWS:
-        kit.camera(scene, (0.7, -4.0, 2.2), (0.0, 0.1, 0.3), lens=50.0)
-        camera = scene.camera.data
-        camera.type = "PANO"
-        owner = camera if hasattr(camera, "panorama_type") else camera.cycles
-        owner.panorama_type = "EQUIRECTANGULAR"
-        scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BLACKMAN_HARRIS", 0.01
-    else:
-        things(scene)
-        for kind in ("max", "diffuse", "glossy", "transmission"):
-            setattr(scene.cycles, f"{kind}_bounces", 6)
+    tree.links.new(shader(Tree(tree)), output.inputs["Surface"])
+
+
+def build(name: str):
+    import bpy
+
+    from scenes import kit
+
+    scene = bpy.context.scene
+    kit.neutral_settings(scene, SIZE, SIZE, samples(name))
+    set_tree(scene, CASES[name])
+    things(scene)
+    for kind in ("max", "diffuse", "glossy", "transmission"):
+        setattr(scene.cycles, f"{kind}_bounces", 6)
     if name in BY_RAY:
         scene.world.cycles.sampling_method = "NONE"
     return scene

@@ -2,6 +2,7 @@
 #include "janus/light/program_sky.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "janus/image/latlong.h"
 #include "janus/util/parallel.h"
@@ -13,6 +14,7 @@ namespace {
 // Columns of the grid of brightness: as many as the widest picture has, within limits.
 constexpr int kLeastColumns = 1024, kMostColumns = 2048;
 
+constexpr int kBlock = 16;      // rows that a thread does at once: they share their edges
 constexpr float kMost = 1e20f;  // sums of it are finite
 
 // Of all directions, this share is drawn whatever the grid says.
@@ -60,30 +62,40 @@ EnvironmentMap ProgramSky::measure(bool sampled, const CancelToken& cancel) cons
   const int width = widest_picture(program_);
   const int columns = sampled ? std::clamp(width, kLeastColumns, kMostColumns) : 4;
   const int rows = columns / 2, steps = width > kMostColumns ? 2 : 1;
+  // By columns: the sums over the points on and between their edges, on the line at `v`.
+  const auto line = [&](double v) {
+    cancel.throw_if_cancelled();
+    std::vector<float> sums(columns, 0.0f);
+    for (int i = 0; i < columns * steps; ++i) {
+      const vec3 direction =
+          latlong_to_direction(static_cast<double>(i) / (columns * steps), latlong_z(v));
+      const float found = std::min(luminance(radiance(direction)), kMost);
+      sums[i / steps] += found;
+      if (i % steps == 0) {
+        sums[(i / steps + columns - 1) % columns] += found;
+      }
+    }
+    return sums;
+  };
   auto grid = std::make_shared<Image>(columns, rows, 3);
   std::vector<double> brightness(rows);
   ThreadPool pool(sampled ? 0 : 1);
-  pool.parallel_for(rows, [&](size_t row) {
-    cancel.throw_if_cancelled();
-    std::vector<float> cells(columns, 0.0f);
-    for (int j = 0; j <= steps; ++j) {
-      const double v = (static_cast<double>(row) + static_cast<double>(j) / steps) / rows;
-      for (int i = 0; i < columns * steps; ++i) {
-        const double u = static_cast<double>(i) / (columns * steps);
-        const float found =
-            std::min(luminance(radiance(latlong_to_direction(u, latlong_z(v)))), kMost);
-        cells[i / steps] += found;
-        if (i % steps == 0) {  // the edge of the cell before, too
-          cells[(i / steps + columns - 1) % columns] += found;
-        }
+  pool.parallel_for((rows + kBlock - 1) / kBlock, [&](size_t block) {
+    const int first = static_cast<int>(block) * kBlock;
+    std::vector<float> edge = line(static_cast<double>(first) / rows);
+    for (int row = first; row < std::min(first + kBlock, rows); ++row) {
+      std::vector<float> cells = edge;
+      for (int j = 1; j <= steps; ++j) {
+        edge = line((row + static_cast<double>(j) / steps) / rows);
+        std::ranges::transform(cells, edge, cells.begin(), std::plus());
       }
-    }
-    const double height =
-        latlong_z((row + 1.0) / rows) - latlong_z(row / static_cast<double>(rows));
-    for (int i = 0; i < columns; ++i) {
-      const float mean = cells[i] / static_cast<float>((steps + 1) * (steps + 1));
-      brightness[row] += 0.5 * height / columns * mean;
-      std::fill_n(&grid->pixels[3 * (row * columns + i)], 3, mean);
+      const double height =
+          latlong_z((row + 1.0) / rows) - latlong_z(row / static_cast<double>(rows));
+      for (int i = 0; i < columns; ++i) {
+        const float mean = cells[i] / static_cast<float>((steps + 1) * (steps + 1));
+        brightness[row] += 0.5 * height / columns * mean;
+        std::fill_n(&grid->pixels[3 * (static_cast<size_t>(row) * columns + i)], 3, mean);
+      }
     }
   });
   double mean = 0.0;

@@ -344,6 +344,23 @@ TEST(Compiler, CutsCycles) {
 }
 
 // Sixty nodes, each of which uses the next one twice: 2^60 ways to the last.
+// What a world is told of rays is constant; a surface is not told yet.
+TEST(Compiler, LightPath) {
+  NodeGraph graph = combine("MIX_SHADER", emission(Rgb(1), 1), emission(Rgb(1), 3));
+  graph.nodes.back().inputs["Fac"] = link("Path", "Is Glossy Ray");
+  graph.nodes.push_back(node("Path", "LIGHT_PATH", {}));
+  EXPECT_TRUE(warned(compiled(graph), "Path", "'Is Glossy Ray' is not supported"));
+  Diagnostics said;
+  const Program glossy = compile(graph, "World", {}, said, RayType::Glossy);
+  const Program camera = compile(graph, "World", {}, said, RayType::Camera);
+  EXPECT_TRUE(said.empty());
+  EXPECT_TRUE(glossy.constant() && camera.constant());
+  EXPECT_EQ(glossy.emission, Rgb(3));
+  EXPECT_EQ(camera.emission, Rgb(1));
+  EXPECT_TRUE(glossy.emits_like(compile(graph, "World", {}, said, RayType::Transmission)));
+  EXPECT_FALSE(glossy.emits_like(camera));
+}
+
 TEST(Compiler, SharedBranchesDoNotExplode) {
   NodeGraph graph;
   for (int i = 0; i < 60; ++i) {
