@@ -11,6 +11,16 @@ namespace janus {
 
 namespace {
 
+const NodeInput* input(const Node& node, const std::string& identifier) {
+  const auto it = node.inputs.find(identifier);
+  return it == node.inputs.end() ? nullptr : &it->second;
+}
+
+const NodeLink* link(const Node& node, const std::string& identifier) {
+  const NodeInput* value = input(node, identifier);
+  return value ? std::get_if<NodeLink>(value) : nullptr;
+}
+
 // The world that is a lat-long picture: Environment Texture -> Background, the texture's vector
 // unlinked or from Texture Coordinate (Generated), by way of a Mapping that only turns. Its pixels
 // are sampled exactly, and looked up without a program.
@@ -19,10 +29,9 @@ class PictureOfWorld {
   PictureOfWorld(const WorldDesc& world, const ImageMap& images, Diagnostics& diagnostics)
       : world_(world), images_(images), diagnostics_(diagnostics) {}
 
-  // nullopt: it is another graph, which compile() knows.
-  std::optional<EnvironmentMap> find() {
-    const Node* shader =
-        world_.graph->surface ? world_.graph->find(world_.graph->surface->node) : nullptr;
+  // With this closure on top. nullopt: it is another graph, which compile() knows.
+  std::optional<EnvironmentMap> find(const NodeLink& top) {
+    const Node* shader = world_.graph->find(top.node);
     if (!shader || (shader->type != "BACKGROUND" && shader->type != "EMISSION")) {
       return std::nullopt;
     }
@@ -36,16 +45,6 @@ class PictureOfWorld {
   }
 
  private:
-  static const NodeInput* input(const Node& node, const std::string& identifier) {
-    const auto it = node.inputs.find(identifier);
-    return it == node.inputs.end() ? nullptr : &it->second;
-  }
-
-  static const NodeLink* link(const Node& node, const std::string& identifier) {
-    const NodeInput* value = input(node, identifier);
-    return value ? std::get_if<NodeLink>(value) : nullptr;
-  }
-
   static std::string text(const Node& node, const std::string& property) {
     const auto it = node.properties.find(property);
     const auto* value =
@@ -151,30 +150,62 @@ class PictureOfWorld {
   Diagnostics& diagnostics_;
 };
 
-// The program of a world, and the rays that see it: the camera's, or with a label at their end.
+// The closure on top as `ray` sees it: behind the mixes between which Light Path chooses.
+std::optional<NodeLink> top_closure(const NodeGraph& graph, RayType ray) {
+  std::optional<NodeLink> top = graph.surface;
+  for (size_t step = 0; top && step < graph.nodes.size(); ++step) {  // a cycle ends, too
+    const Node* mix = graph.find(top->node);
+    const NodeLink* factor = mix && mix->type == "MIX_SHADER" ? link(*mix, "Fac") : nullptr;
+    const Node* path = factor ? graph.find(factor->node) : nullptr;
+    const auto answer =
+        path && path->type == "LIGHT_PATH" ? light_path_answer(ray, factor->output) : std::nullopt;
+    if (!answer) {
+      break;
+    }
+    const NodeLink* chosen = link(*mix, *answer ? "Shader_001" : "Shader");
+    top = chosen ? std::optional(*chosen) : std::nullopt;
+  }
+  return top;
+}
+
+// What some rays see of a world: a picture, or a program. `seen_by`: the camera, and labels.
 struct Part {
-  Program program;
   RayMask seen_by;
+  std::string closure;  // of the picture
+  std::optional<EnvironmentMap> picture;
+  Program program;
 };
 
-// One program for each answer that Light Path gives.
+// One part for each answer that Light Path gives.
 std::vector<Part> parts(const WorldDesc& world, const ImageMap& images, Diagnostics& diagnostics) {
   constexpr RayType kRays[] = {RayType::Camera, RayType::Diffuse, RayType::Glossy,
                                RayType::Transmission};
   const bool by_ray = std::ranges::any_of(
       world.graph->nodes, [](const Node& node) { return node.type == "LIGHT_PATH"; });
+  PictureOfWorld finder(world, images, diagnostics);
   std::vector<Part> parts;
   for (const RayType ray : kRays) {
     if (!by_ray && !parts.empty()) {
       break;
     }
+    const auto top = top_closure(*world.graph, ray);
+    const auto known = std::ranges::find_if(
+        parts, [&](const Part& part) { return part.picture && top && part.closure == top->node; });
+    if (known != parts.end()) {
+      known->seen_by |= ray_bit(ray);
+      continue;
+    }
+    if (auto picture = top ? finder.find(*top) : std::nullopt) {
+      parts.push_back({ray_bit(ray), top->node, std::move(picture), {}});
+      continue;
+    }
     Program program = compile(*world.graph, world.name, images, diagnostics, ray);
     const auto same = std::ranges::find_if(
-        parts, [&](const Part& part) { return part.program.emits_like(program); });
+        parts, [&](const Part& part) { return !part.picture && part.program.emits_like(program); });
     if (same != parts.end()) {
       same->seen_by |= ray_bit(ray);
     } else {
-      parts.push_back({std::move(program), ray_bit(ray)});
+      parts.push_back({ray_bit(ray), "", std::nullopt, std::move(program)});
     }
   }
   if (parts.size() == 1) {
@@ -203,19 +234,17 @@ std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const Ima
   if (!world.graph) {
     return lights;
   }
-  if (auto map = PictureOfWorld(world, images, diagnostics).find()) {
-    if (!map->black()) {
-      add(make_environment_light(std::move(*map), scene), kAllRays);
-    }
-    return lights;
-  }
   std::vector<Part> all = parts(world, images, diagnostics);
   if (std::ranges::any_of(all, [](const Part& part) { return scatters(part.program); })) {
     diagnostics.push_back(
         {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
   }
-  for (auto& [program, seen_by] : all) {
-    if (program.varying_emission) {
+  for (auto& [seen_by, closure, picture, program] : all) {
+    if (picture) {
+      if (!picture->black()) {
+        add(make_environment_light(std::move(*picture), scene), seen_by);
+      }
+    } else if (program.varying_emission) {
       const bool sampled = (world.visibility & seen_by & kLabels) != 0;
       add(make_environment_light(ProgramSky(std::move(program), to_camera, sampled, cancel), scene),
           seen_by);

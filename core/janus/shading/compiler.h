@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "janus/scene/description.h"
@@ -22,6 +23,10 @@ using ImageMap = std::map<std::string, ImageDesc>;
 // without one it is that of a surface.
 Program compile(const NodeGraph& graph, const std::string& material, const ImageMap& images,
                 Diagnostics& diagnostics, std::optional<RayType> world_ray = std::nullopt);
+
+// What Light Path answers in the tree of a world that rays of this type see; nullopt: that output
+// is not supported.
+std::optional<bool> light_path_answer(RayType world_ray, std::string_view output);
 
 // The keys of the mesh attributes that the program of a graph reads: see node_emitter.h.
 std::vector<std::string> required_attributes(const NodeGraph& graph);

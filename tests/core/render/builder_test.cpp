@@ -321,6 +321,35 @@ TEST(Builder, WorldByRayType) {
   EXPECT_EQ(masks("Ray Depth", 1.0f).size(), 1u);  // named, and a constant
 }
 
+// A picture that Light Path chooses is the light that it is alone.
+TEST(Builder, PictureByRayType) {
+  Image picture(8, 4, 3);
+  for (size_t i = 0; i < picture.pixels.size(); ++i) {
+    picture.pixels[i] = 0.1f + 0.01f * static_cast<float>(i % 31);
+  }
+  SceneKit plain = SceneKit().world(picture), chosen = SceneKit().world(picture);
+  NodeGraph graph = single("BACKGROUND", {{"Color", link("Map", "Color")}});
+  graph.nodes.push_back(node("Map", "TEX_ENVIRONMENT", {}));
+  graph.nodes.back().properties = {{"image", std::string("image")}};
+  graph.nodes.push_back(node("Other", "BACKGROUND", {}));
+  graph.nodes.push_back(node("Path", "LIGHT_PATH", {}));
+  graph.nodes.push_back(node("Top", "MIX_SHADER",
+                             {{"Fac", link("Path", "Is Camera Ray")},
+                              {"Shader", link("Shader")},
+                              {"Shader_001", link("Other")}}));
+  graph.surface = NodeLink{"Top", "Shader"};
+  chosen.builder.set_world({"World", graph});
+  const auto a = plain.build(), b = chosen.build();
+  ASSERT_EQ(b->lights.size(), 2u);
+  EXPECT_EQ(b->lights[0]->visibility & (kLabels | ray_bit(RayType::Camera)),
+            ray_bit(RayType::Camera));
+  EXPECT_EQ(b->lights[1]->visibility, kLabels);
+  EXPECT_EQ(b->lights[1]->power(), a->lights[0]->power());
+  const Ray ray{vec3(0), normalize(vec3(1, 2, 0.5f))};
+  EXPECT_EQ(b->lights[1]->intersect(ray)->pdf_illumination,
+            a->lights[0]->intersect(ray)->pdf_illumination);
+}
+
 // A lamp whose light varies is not black without a word.
 TEST(Builder, NamesLightThatVaries) {
   NodeGraph varying = emission(Rgb(1), 1);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "janus/shading/compiler.h"
 #include "janus/shading/fresnel.h"
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/families.h"
@@ -168,26 +169,14 @@ constexpr std::string_view kLightPath[] = {
     "Ray Length",         "Ray Depth",         "Diffuse Depth",       "Glossy Depth",
     "Transmission Depth", "Transparent Depth", "Portal Depth"};
 
-// A world has a program for each type of ray, with the answers as constants. As in Cycles, what
-// glass lets through is a glossy ray, too. The types do not tell mirrors from rough surfaces, nor
-// count bounces: those outputs are named as not supported.
+// A world has a program for each type of ray, with the answers as constants.
 void emit_light_path(NodeEmitter& e) {
-  if (!e.world_ray()) {
-    return;
+  for (const std::string_view output : kLightPath) {
+    const auto yes = e.world_ray() ? light_path_answer(*e.world_ray(), output) : std::nullopt;
+    if (yes) {
+      e.output(output, e.constant(*yes ? 1.0f : 0.0f));
+    }
   }
-  const RayType ray = *e.world_ray();
-  const auto answer = [&](std::string_view output, bool yes) {
-    e.output(output, e.constant(yes ? 1.0f : 0.0f));
-  };
-  const bool diffuse = ray == RayType::Diffuse, glossy = ray == RayType::Glossy;
-  const bool transmission = ray == RayType::Transmission;
-  answer("Is Camera Ray", ray == RayType::Camera);
-  answer("Is Shadow Ray", false);
-  answer("Is Diffuse Ray", diffuse);
-  answer("Is Glossy Ray", glossy || transmission);
-  answer("Is Reflection Ray", diffuse || glossy);
-  answer("Is Transmission Ray", transmission);
-  answer("Is Volume Scatter Ray", false);
 }
 
 // --- Fresnel, Layer Weight -----------------------------------------------------------------------
@@ -227,6 +216,28 @@ void emit_layer_weight(NodeEmitter& e) {
 }
 
 }  // namespace
+
+// As in Cycles, what glass lets through is a glossy ray, too. The types do not tell mirrors from
+// rough surfaces, nor count bounces.
+std::optional<bool> light_path_answer(RayType world_ray, std::string_view output) {
+  const bool diffuse = world_ray == RayType::Diffuse, glossy = world_ray == RayType::Glossy;
+  const bool transmission = world_ray == RayType::Transmission;
+  const std::pair<std::string_view, bool> answers[] = {
+      {"Is Camera Ray", world_ray == RayType::Camera},
+      {"Is Shadow Ray", false},
+      {"Is Diffuse Ray", diffuse},
+      {"Is Glossy Ray", glossy || transmission},
+      {"Is Reflection Ray", diffuse || glossy},
+      {"Is Transmission Ray", transmission},
+      {"Is Volume Scatter Ray", false},
+  };
+  for (const auto& [name, yes] : answers) {
+    if (name == output) {
+      return yes;
+    }
+  }
+  return std::nullopt;
+}
 
 std::span<const NodeDecl> input_nodes() {
   static const NodeDecl kNodes[] = {
