@@ -94,6 +94,7 @@ def test_settings_reach_the_core(scene, fake_core):
         "light_paths": 0.5,
         "connections": 2.0,
         "heuristic": "POWER",
+        "merge_radius": 0.0,
         "adaptive_counts": True,
         "film_exposure": 1.5,
         "film_transparent": True,

@@ -5,12 +5,18 @@
 // emission hits (s=0), next event estimation (s=1) and C connections per vertex to cache entries
 // picked uniformly. Counts may be zero: without light paths this is a path tracer.
 //
+// With a merge radius, each camera vertex is also merged with the cached vertices around it
+// (Georgiev et al. 2012): that finds caustics which are seen in mirrors or through glass, and blurs
+// light by the radius, which shrinks from pass to pass.
+//
 // To bound the cache, a pass runs in waves: a range of its light paths with a cache of their own,
 // then an interleaved subset of its pixels.
+#include <numbers>
+
 #include "janus/integrator/adaptive_counts.h"
 #include "janus/integrator/pass.h"
 #include "janus/integrator/roulette_map.h"
-#include "janus/integrator/vertex_cache.h"
+#include "janus/integrator/vertex_grid.h"
 #include "janus/path/oracle.h"
 
 namespace janus {
@@ -20,7 +26,9 @@ namespace {
 constexpr size_t kPilotPaths = 4096;
 constexpr int kMeasuredPass = 1;      // adaptive counts; the pass before it shows what is bright
 constexpr size_t kOracleStride = 97;  // debug mode checks every 97th pixel
-constexpr int kMaxConnections = 65;   // RenderSettings allows 64, and one may be added by chance
+// The square of the merge radius shrinks as pass^(kMergeAlpha - 1), with the paper's value.
+constexpr float kMergeAlpha = 0.75f;
+constexpr int kMaxConnections = 65;  // RenderSettings allows 64, and one may be added by chance
 
 class Bdpt final : public PassIntegrator {
  public:
@@ -49,6 +57,12 @@ class Bdpt final : public PassIntegrator {
       meter_.emplace(counts_);
     }
     const Counters before = counters();
+    if (merges()) {
+      merge_radius_ = settings_.merge_radius * std::pow(pass + 1.0f, 0.5f * (kMergeAlpha - 1.0f));
+      counts_.merge = std::numbers::pi_v<float> * merge_radius_ * merge_radius_ *
+                      static_cast<float>(light_paths_) / static_cast<float>(waves_);
+      mis_ = Mis(settings_.heuristic, counts_);
+    }
     for (size_t wave = 0; wave < waves_; ++wave) {
       trace_lights(wave);
       trace_camera(pass, wave);
@@ -71,9 +85,13 @@ class Bdpt final : public PassIntegrator {
  private:
   // Weights with a square tell less about other counts, and debugging wants the counts given.
   bool adapts() const {
-    return settings_.adaptive_counts && settings_.heuristic == Heuristic::Balance &&
+    return settings_.adaptive_counts && settings_.heuristic == Heuristic::Balance && !merges() &&
            !settings_.only && effort_.light_paths > 0.0f && effort_.connections > 0.0f &&
            light_paths_ > 0 && counts_.connection > 0.0f;
+  }
+
+  bool merges() const {
+    return settings_.merge_radius > 0.0f && light_paths_ > 0 && !settings_.only;
   }
 
   // Are there paths that camera walks cannot make? A light that cannot be hit, behind a delta.
@@ -92,7 +110,8 @@ class Bdpt final : public PassIntegrator {
   // Measures the vertices that a light path leaves in the cache. The weights need that number
   // before the pass: with the pass's own count, weight and estimate would be correlated.
   void run_pilot() {
-    if (light_path_count(effort_.light_paths) == 0 || effort_.connections == 0.0f) {
+    if (light_path_count(effort_.light_paths) == 0 ||
+        (effort_.connections == 0.0f && settings_.merge_radius == 0.0f)) {
       return;
     }
     constexpr size_t kBlocks = 16;
@@ -121,7 +140,8 @@ class Bdpt final : public PassIntegrator {
     counts_.splat = static_cast<float>(light_paths_);
     const bool connect = light_paths_ > 0 && effort.connections > 0.0f && vertices_per_path_ > 0.0f;
     counts_.connection = connect ? effort.connections / vertices_per_path_ : 0.0f;
-    const double pass_bytes = connect ? bytes_per_path_ * static_cast<double>(light_paths_) : 0.0;
+    const double pass_bytes =
+        connect || merges() ? bytes_per_path_ * static_cast<double>(light_paths_) : 0.0;
     // A wave without light paths would leave its pixels without connections.
     waves_ = std::min(1 + static_cast<size_t>(1.1 * pass_bytes / settings_.cache_bytes),
                       std::max<size_t>(1, light_paths_ / kLightBlock));
@@ -130,7 +150,8 @@ class Bdpt final : public PassIntegrator {
 
   // A vertex that no camera vertex may join within the length limit is not worth its place.
   void cache(const PathVertex& v, CacheBlock& cache) const {
-    if (v.bsdf().connectible() && v.edges + 2 <= v.max_edges && v.possible_labels(false) != 0) {
+    const int least = settings_.merge_radius > 0.0f ? 1 : 2;  // edges that a join adds
+    if (v.bsdf().connectible() && v.edges + least <= v.max_edges && v.possible_labels(false) != 0) {
       cache.add(v);
     }
   }
@@ -140,7 +161,7 @@ class Bdpt final : public PassIntegrator {
     wave_paths_ = end - begin;
     const size_t blocks = (wave_paths_ + kLightBlock - 1) / kLightBlock;
     const float margin = context_.film.filter().radius();
-    const bool connect = counts_.connection > 0.0f;
+    const bool keep = counts_.connection > 0.0f || merges();
     const std::span<CacheBlock> caches = cache_.start(blocks);
     splats_.resize(std::max(splats_.size(), blocks));
     const std::span splats = std::span(splats_).first(blocks);
@@ -157,7 +178,7 @@ class Bdpt final : public PassIntegrator {
                             [&](const PathVertex& v, Sampler& walk) {
                               splat(v, walk, margin, splats[block], moments[meter_ ? block : 0],
                                     counters);
-                              if (connect) {
+                              if (keep) {
                                 cache(v, caches[block]);
                               }
                             });
@@ -169,6 +190,9 @@ class Bdpt final : public PassIntegrator {
     collect(moments);
     cache_.finish();
     cache_bytes_ = std::max(cache_bytes_, cache_.bytes());
+    if (merges()) {
+      grid_.build(cache_, merge_radius_);
+    }
   }
 
   // The value of a join whose technique has `s` light vertices and `t` camera vertices.
@@ -271,6 +295,9 @@ class Bdpt final : public PassIntegrator {
             const Picks picks = pick(walk);
             gather(next_event(v, roulette, walk, meter, counters));
             gather(connect(v, picks, roulette, walk, meter, counters));
+            if (merges()) {
+              gather(merge(v, counters));
+            }
           }
         });
     context_.film.add_sample(index, sum, alpha);
@@ -351,6 +378,19 @@ class Bdpt final : public PassIntegrator {
     return sum;
   }
 
+  Rgb merge(const PathVertex& v, Counters& counters) const {
+    Rgb sum(0.0f);
+    const float scale = 1.0f / (std::numbers::pi_v<float> * merge_radius_ * merge_radius_ *
+                                static_cast<float>(wave_paths_));
+    grid_.for_each_near(v.hit.p, [&](const LightVertex& l) {
+      if (const auto merged = merge_vertices(l, v, mis_, settings_.walk, scale)) {
+        ++counters.merges;
+        sum += settings_.clamp(merged->value * merged->weight.value, l.edges + v.edges);
+      }
+    });
+    return sum;
+  }
+
   void check(vec2 raster, size_t index, int pass) {
     const WeightCheck result =
         check_weights(context_.scene, context_.camera, raster, settings_.heuristic, counts_,
@@ -371,6 +411,8 @@ class Bdpt final : public PassIntegrator {
   std::optional<AdaptiveCounts> meter_;  // while the counts are measured
   AdaptiveCounts::Moments moments_;
   VertexCache cache_;
+  VertexGrid grid_;
+  float merge_radius_ = 0.0f;               // of the pass
   std::vector<std::vector<Splat>> splats_;  // by block of light paths
   size_t cache_bytes_ = 0;                  // the largest so far
   RouletteMap roulette_;

@@ -53,7 +53,10 @@ class _Stats(TypedDict):
     paths: dict[Literal["camera", "light"], int]
     rays: dict[Literal["camera", "light", "nee", "connection", "splat"], int]
     joins: dict[
-        Literal["connections", "connections_facing", "connections_evaluated", "nee", "splats"], int
+        Literal[
+            "connections", "connections_facing", "connections_evaluated", "nee", "splats", "merges"
+        ],
+        int,
     ]
     light_vertices: int
     light_cache_bytes: int
@@ -291,6 +294,7 @@ class RenderSettings:
         filter_width: float = 1.5,
         light_paths: float = 1.0,
         connections: float = 1.0,
+        merge_radius: float = 0.0,
         adaptive_counts: bool = False,
         heuristic: Literal["BALANCE", "POWER"] = "BALANCE",
         film_exposure: float = 1.0,
@@ -360,6 +364,9 @@ class RenderSettings:
     @property
     def connections(self) -> float:
         """Connections per vertex of a camera path."""
+    @property
+    def merge_radius(self) -> float:
+        """Bidirectional: how far apart vertices may be to be merged; 0: not at all."""
     @property
     def adaptive_counts(self) -> bool:
         """Bidirectional: starts with the two counts, then takes what is most efficient."""
