@@ -186,7 +186,7 @@ class Bench:
             }
 
         reference = references.choose(
-            lambda picture: min(found.mean() for found in errors(picture).values())
+            lambda picture, of: min(found.mean() for found in errors(picture, of).values())
         )
         found = errors(reference.picture)
         spreads = {
