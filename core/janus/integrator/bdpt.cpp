@@ -11,12 +11,10 @@
 //
 // To bound the cache, a pass runs in waves: a range of its light paths with a cache of their own,
 // then an interleaved subset of its pixels.
-#include <numbers>
-
 #include "janus/integrator/adaptive_counts.h"
+#include "janus/integrator/merging.h"
 #include "janus/integrator/pass.h"
 #include "janus/integrator/roulette_map.h"
-#include "janus/integrator/vertex_grid.h"
 #include "janus/path/oracle.h"
 
 namespace janus {
@@ -26,16 +24,15 @@ namespace {
 constexpr size_t kPilotPaths = 4096;
 constexpr int kMeasuredPass = 1;      // adaptive counts; the pass before it shows what is bright
 constexpr size_t kOracleStride = 97;  // debug mode checks every 97th pixel
-// The square of the merge radius shrinks as pass^(kMergeAlpha - 1), with the paper's value.
-constexpr float kMergeAlpha = 0.75f;
-constexpr int kMaxConnections = 65;  // RenderSettings allows 64, and one may be added by chance
+constexpr int kMaxConnections = 65;   // RenderSettings allows 64, and one may be added by chance
 
 class Bdpt final : public PassIntegrator {
  public:
   Bdpt(const RenderContext& context, const IntegratorSettings& settings)
       : PassIntegrator(context, settings),
         effort_{settings.light_paths, settings.connections},
-        mis_(settings.heuristic, counts_) {
+        mis_(settings.heuristic, counts_),
+        merging_(settings.merge_radius) {
     run_pilot();
     set_effort(effort_);
     if (!settings_.only && !settings_.check_weights) {
@@ -58,10 +55,9 @@ class Bdpt final : public PassIntegrator {
     }
     const Counters before = counters();
     if (merges()) {
-      merge_radius_ = settings_.merge_radius * std::pow(pass + 1.0f, 0.5f * (kMergeAlpha - 1.0f));
-      counts_.merge = std::numbers::pi_v<float> * merge_radius_ * merge_radius_ *
-                      static_cast<float>(light_paths_) / static_cast<float>(waves_);
-      mis_ = Mis(settings_.heuristic, counts_);
+      merging_.begin_pass(pass);
+      counts_.merge = merging_.count(static_cast<float>(light_paths_) / static_cast<float>(waves_));
+      renew_weights();
     }
     for (size_t wave = 0; wave < waves_; ++wave) {
       trace_lights(wave);
@@ -90,9 +86,7 @@ class Bdpt final : public PassIntegrator {
            light_paths_ > 0 && counts_.connection > 0.0f;
   }
 
-  bool merges() const {
-    return settings_.merge_radius > 0.0f && light_paths_ > 0 && !settings_.only;
-  }
+  bool merges() const { return merging_.used() && light_paths_ > 0 && !settings_.only; }
 
   // Are there paths that camera walks cannot make? A light that cannot be hit, behind a delta.
   bool needs_light_paths() const {
@@ -111,7 +105,7 @@ class Bdpt final : public PassIntegrator {
   // before the pass: with the pass's own count, weight and estimate would be correlated.
   void run_pilot() {
     if (light_path_count(effort_.light_paths) == 0 ||
-        (effort_.connections == 0.0f && settings_.merge_radius == 0.0f)) {
+        (effort_.connections == 0.0f && !merging_.used())) {
       return;
     }
     constexpr size_t kBlocks = 16;
@@ -145,12 +139,13 @@ class Bdpt final : public PassIntegrator {
     // A wave without light paths would leave its pixels without connections.
     waves_ = std::min(1 + static_cast<size_t>(1.1 * pass_bytes / settings_.cache_bytes),
                       std::max<size_t>(1, light_paths_ / kLightBlock));
-    mis_ = Mis(settings_.heuristic, counts_);
+    renew_weights();
   }
+  void renew_weights() { mis_ = Mis(settings_.heuristic, counts_); }
 
   // A vertex that no camera vertex may join within the length limit is not worth its place.
   void cache(const PathVertex& v, CacheBlock& cache) const {
-    const int least = settings_.merge_radius > 0.0f ? 1 : 2;  // edges that a join adds
+    const int least = merging_.used() ? 1 : 2;  // edges that a join adds
     if (v.bsdf().connectible() && v.edges + least <= v.max_edges && v.possible_labels(false) != 0) {
       cache.add(v);
     }
@@ -191,7 +186,7 @@ class Bdpt final : public PassIntegrator {
     cache_.finish();
     cache_bytes_ = std::max(cache_bytes_, cache_.bytes());
     if (merges()) {
-      grid_.build(cache_, merge_radius_);
+      merging_.build(cache_, wave_paths_);
     }
   }
 
@@ -296,7 +291,7 @@ class Bdpt final : public PassIntegrator {
             gather(next_event(v, roulette, walk, meter, counters));
             gather(connect(v, picks, roulette, walk, meter, counters));
             if (merges()) {
-              gather(merge(v, counters));
+              gather(merging_.gather(v, mis_, settings_.walk, settings_.clamp, counters));
             }
           }
         });
@@ -378,19 +373,6 @@ class Bdpt final : public PassIntegrator {
     return sum;
   }
 
-  Rgb merge(const PathVertex& v, Counters& counters) const {
-    Rgb sum(0.0f);
-    const float scale = 1.0f / (std::numbers::pi_v<float> * merge_radius_ * merge_radius_ *
-                                static_cast<float>(wave_paths_));
-    grid_.for_each_near(v.hit.p, [&](const LightVertex& l) {
-      if (const auto merged = merge_vertices(l, v, mis_, settings_.walk, scale)) {
-        ++counters.merges;
-        sum += settings_.clamp(merged->value * merged->weight.value, l.edges + v.edges);
-      }
-    });
-    return sum;
-  }
-
   void check(vec2 raster, size_t index, int pass) {
     const WeightCheck result =
         check_weights(context_.scene, context_.camera, raster, settings_.heuristic, counts_,
@@ -411,8 +393,7 @@ class Bdpt final : public PassIntegrator {
   std::optional<AdaptiveCounts> meter_;  // while the counts are measured
   AdaptiveCounts::Moments moments_;
   VertexCache cache_;
-  VertexGrid grid_;
-  float merge_radius_ = 0.0f;               // of the pass
+  Merging merging_;
   std::vector<std::vector<Splat>> splats_;  // by block of light paths
   size_t cache_bytes_ = 0;                  // the largest so far
   RouletteMap roulette_;

@@ -52,12 +52,7 @@ class _Stats(TypedDict):
     seconds: float
     paths: dict[Literal["camera", "light"], int]
     rays: dict[Literal["camera", "light", "nee", "connection", "splat"], int]
-    joins: dict[
-        Literal[
-            "connections", "connections_facing", "connections_evaluated", "nee", "splats", "merges"
-        ],
-        int,
-    ]
+    joins: dict[str, int]
     light_vertices: int
     light_cache_bytes: int
     dropped: int
@@ -69,8 +64,7 @@ class Diagnostic:
     """A recoverable finding; empty strings mean "does not apply"."""
 
     @property
-    def severity(self) -> Literal["INFO", "WARNING", "ERROR"]:
-        """How grave it is."""
+    def severity(self) -> Literal["INFO", "WARNING", "ERROR"]: ...
     @property
     def object(self) -> str:
         """Name of the object."""

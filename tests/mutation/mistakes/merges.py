@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertex merging."""
+
+from __future__ import annotations
+
+from mistake import one
+
+from mistakes.sources import CONNECT, MERGING, MIS
+
+MERGES = (
+    one(
+        "merges-not-in-weights",
+        0,
+        "no weight knows of merging, which takes a share all the same",
+        MERGING,
+        MIS,
+        "a.splat * b.splat +\n         a.merge * b.merge;",
+        "a.splat * b.splat;",
+    ),
+    one(
+        "direct-light-merged",
+        0,
+        "merging finds direct light, too, which the weights leave to the others",
+        MERGING,
+        "core/janus/integrator/vertex_grid.h",
+        "v.edges > 1",
+        "v.edges > 0",
+    ),
+    one(
+        "merges-at-z_1-in-weights",
+        0,
+        "next event estimation and hits leave a share to merging at z_1, which there is not",
+        MERGING,
+        MIS,
+        "behind.merge - (delta ? 0.0f : 1.0f)",
+        "behind.merge",
+    ),
+    one(
+        "merged-flux-with-a-cosine",
+        0,
+        "the flux of a light path is taken as radiance times a solid angle",
+        MERGING,
+        CONNECT,
+        "(scale / std::abs(cos_light))",
+        "scale",
+    ),
+    one(
+        "merge-radius-of-the-first-pass",
+        0,
+        "the estimate divides by the area of the first pass",
+        MERGING,
+        "core/janus/integrator/merging.h",
+        "scale_ = 1.0f / (area() *",
+        "scale_ = 1.0f / (std::numbers::pi_v<float> * first_radius_ * first_radius_ *",
+    ),
+    one(
+        "longest-merges-skipped",
+        0,
+        "a merge counts its vertex twice",
+        MERGING,
+        CONNECT,
+        "if (edges > l.max_edges || l.crossings",
+        "if (edges + 1 > l.max_edges || l.crossings",
+    ),
+)
