@@ -32,7 +32,7 @@ class Bdpt final : public PassIntegrator {
       : PassIntegrator(context, settings),
         effort_{settings.light_paths, settings.connections},
         mis_(settings.heuristic, counts_),
-        merging_(settings.merge_radius) {
+        merging_(settings.merge_radius, context.scene.accel->bounds()) {
     run_pilot();
     set_effort(effort_);
     if (!settings_.only && !settings_.check_weights) {
@@ -125,6 +125,9 @@ class Bdpt final : public PassIntegrator {
       bytes += c.bytes();
     }
     vertices_per_path_ = static_cast<float>(vertices) / kPilotPaths;
+    if (merging_.used()) {
+      bytes += vertices * VertexGrid::kBytesPerVertex;
+    }
     bytes_per_path_ = static_cast<double>(bytes) / kPilotPaths;
   }
 
@@ -291,6 +294,7 @@ class Bdpt final : public PassIntegrator {
             gather(next_event(v, roulette, walk, meter, counters));
             gather(connect(v, picks, roulette, walk, meter, counters));
             if (merges()) {
+              context_.cancel.throw_if_cancelled();  // with a large radius there is much to do
               gather(merging_.gather(v, mis_, settings_.walk, settings_.clamp, counters));
             }
           }

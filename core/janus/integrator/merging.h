@@ -14,14 +14,19 @@ namespace janus {
 class Merging {
  public:
   // `radius`: of the first pass, scene units; 0: nothing is ever merged.
-  explicit Merging(float radius) : first_radius_(radius), radius_(radius) {}
+  Merging(float radius, const Bounds& scene) : first_radius_(radius) {
+    const vec3 farthest = glm::max(glm::abs(scene.lower), glm::abs(scene.upper));
+    least_ = kResolution * std::max({farthest.x, farthest.y, farthest.z});
+    most_ = std::max(2.0f * scene.radius(), least_);
+  }
 
   bool used() const { return first_radius_ > 0.0f; }
 
   // The square of the radius shrinks as pass^(alpha - 1), with the paper's alpha.
   void begin_pass(int pass) {
     constexpr float kAlpha = 0.75f;
-    radius_ = first_radius_ * std::pow(pass + 1.0f, 0.5f * (kAlpha - 1.0f));
+    const float radius = first_radius_ * std::pow(pass + 1.0f, 0.5f * (kAlpha - 1.0f));
+    radius_ = std::clamp(radius, least_, most_);
   }
   // SampleCounts::merge where the vertices of so many light paths are at hand.
   float count(float light_paths) const { return area() * light_paths; }
@@ -45,10 +50,13 @@ class Merging {
   }
 
  private:
+  // Of coordinates: nearer vertices are at one place, as far as positions can tell.
+  static constexpr float kResolution = 1e-6f;
+
   float area() const { return std::numbers::pi_v<float> * radius_ * radius_; }
 
-  float first_radius_, radius_;
-  float scale_ = 0.0f;
+  float first_radius_, least_, most_;
+  float radius_ = 0.0f, scale_ = 0.0f;  // of the pass
   VertexGrid grid_;
 };
 

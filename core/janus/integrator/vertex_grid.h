@@ -3,7 +3,6 @@
 // Finds the cached light vertices around a point: a hash of cubic cells, sorted by counting.
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include "janus/integrator/vertex_cache.h"
@@ -12,50 +11,49 @@
 namespace janus {
 
 class VertexGrid {
+  struct Item {
+    vec3 p;
+    const LightVertex* vertex;
+  };
+
  public:
-  // Holds the vertices behind z_1, in the order of the cache. The cache outlives what is found.
+  // At most, for each vertex of the cache.
+  static constexpr size_t kBytesPerVertex = sizeof(Item) + 2 * sizeof(size_t);
+
+  // Holds the vertices behind z_1. The cache outlives what is found; coordinates over the radius
+  // are numbers of 32 bits.
   void build(const VertexCache& cache, float radius) {
-    radius2_ = radius * radius;
-    per_cell_ = 0.5f / radius;
-    vertices_.clear();
-    cache.for_each([&](const LightVertex& v) {
-      if (v.edges > 1) {
-        vertices_.push_back(&v);
-      }
-    });
+    radius_ = radius;
     size_t buckets = 1;
-    while (buckets < vertices_.size()) {
+    while (buckets < cache.size()) {
       buckets *= 2;
     }
     mask_ = buckets - 1;
+    // Where each bucket ends; filling it from there leaves where it begins.
     first_.assign(buckets + 1, 0);
-    for (const LightVertex* v : vertices_) {
-      ++first_[bucket(cell(v->p)) + 1];
+    for_each_bounced(cache, [&](const LightVertex& v) { ++first_[bucket(cell(v.p))]; });
+    for (size_t i = 1; i <= buckets; ++i) {
+      first_[i] += first_[i - 1];
     }
-    for (size_t i = 0; i < buckets; ++i) {
-      first_[i + 1] += first_[i];
-    }
-    items_.resize(vertices_.size());
-    next_.assign(first_.begin(), first_.end() - 1);
-    for (const LightVertex* v : vertices_) {
-      items_[next_[bucket(cell(v->p))]++] = {v->p, v};
-    }
+    items_.resize(first_.back());
+    for_each_bounced(
+        cache, [&](const LightVertex& v) { items_[--first_[bucket(cell(v.p))]] = {v.p, &v}; });
   }
 
-  // Calls found(const LightVertex&) for those within the radius of `p`.
+  // Calls found(const LightVertex&) for those within the radius of `p`, in an order that does not
+  // depend on the threads.
   template <class Found>
   void for_each_near(vec3 p, Found&& found) const {
     // A cell is two radii wide: what is near lies in two cells along each axis.
-    const glm::ivec3 low = cell(p - vec3(0.5f / per_cell_));
+    const glm::ivec3 low = cell(p - vec3(radius_));
     size_t seen[8];
     for (int n = 0; n < 8; ++n) {
       seen[n] = bucket(low + glm::ivec3(n & 1, n >> 1 & 1, n >> 2));
-      bool again = false;  // two cells can share a bucket
-      for (int i = 0; i < n; ++i) {
-        again |= seen[i] == seen[n];
+      if (std::find(seen, seen + n, seen[n]) != seen + n) {
+        continue;  // two cells can share a bucket
       }
-      for (size_t i = first_[seen[n]]; i < first_[seen[n] + 1] && !again; ++i) {
-        if (length2(items_[i].p - p) <= radius2_) {
+      for (size_t i = first_[seen[n]]; i < first_[seen[n] + 1]; ++i) {
+        if (length2(items_[i].p - p) <= radius_ * radius_) {
           found(*items_[i].vertex);
         }
       }
@@ -63,23 +61,25 @@ class VertexGrid {
   }
 
  private:
-  struct Item {
-    vec3 p;
-    const LightVertex* vertex;
-  };
-
-  glm::ivec3 cell(vec3 p) const { return glm::ivec3(glm::floor(p * per_cell_)); }
-  size_t bucket(glm::ivec3 c) const {
-    return hash_combine(
-               hash_combine(hash32(static_cast<uint32_t>(c.x)), static_cast<uint32_t>(c.y)),
-               static_cast<uint32_t>(c.z)) &
-           mask_;
+  template <class Visit>
+  static void for_each_bounced(const VertexCache& cache, Visit&& visit) {
+    cache.for_each([&](const LightVertex& v) {
+      if (v.edges > 1) {
+        visit(v);
+      }
+    });
   }
 
-  float radius2_ = 0.0f, per_cell_ = 1.0f;
+  glm::ivec3 cell(vec3 p) const { return glm::ivec3(glm::floor(p * (0.5f / radius_))); }
+  size_t bucket(glm::ivec3 c) const {
+    const uint32_t xy =
+        hash_combine(hash32(static_cast<uint32_t>(c.x)), static_cast<uint32_t>(c.y));
+    return hash_combine(xy, static_cast<uint32_t>(c.z)) & mask_;
+  }
+
+  float radius_ = 1.0f;
   size_t mask_ = 0;
-  std::vector<const LightVertex*> vertices_;
-  std::vector<size_t> first_{0, 0}, next_;  // by bucket
+  std::vector<size_t> first_{0, 0};  // by bucket
   std::vector<Item> items_;
 };
 

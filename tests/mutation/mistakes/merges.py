@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from mistake import one
 
-from mistakes.sources import CONNECT, MERGING, MIS
+from mistakes.sources import CONNECT, MERGING, MERGING_RULES, MIS
 
 MERGES = (
     one(
@@ -61,5 +61,41 @@ MERGES = (
         CONNECT,
         "if (edges > l.max_edges || l.crossings",
         "if (edges + 1 > l.max_edges || l.crossings",
+    ),
+    one(
+        "labels-not-for-merges",
+        0,
+        "what is hidden from a ray is there where vertices are merged",
+        MERGING_RULES,
+        CONNECT,
+        "label = label.within(l.labels);\n    }\n    scale",
+        "}\n    scale",
+    ),
+    one(
+        "caps-not-for-merges",
+        0,
+        "merging has no limits of bounces by kind",
+        MERGING_RULES,
+        CONNECT,
+        "scale *= rules.caps.share(l.bounces + c.bounces, label);",
+        "",
+    ),
+    one(
+        "crossings-not-for-merges",
+        0,
+        "merging has a limit of crossings for each subpath",
+        MERGING_RULES,
+        CONNECT,
+        "l.crossings + c.crossings > rules.max_crossings ||\n      dot(",
+        "dot(",
+    ),
+    one(
+        "merged-background-behind-glass",
+        0,
+        "merging at clear glass shows the background of a transparent film",
+        MERGING_RULES,
+        CONNECT,
+        "if (rules.clear_views() && c.clear && l.hidden) {\n    scale",
+        "if (false) {\n    scale",
     ),
 )
