@@ -156,9 +156,6 @@ TEST_P(ClearView, IntegratorsAgree) {
   const auto lt = picture(IntegratorType::LightTracer, samples(192), view.film);
   const auto expected = quarters(scene, bdpt);
   expect_agreement(expected, quarters(scene, pt));
-  RenderSettings merging = merged(bdpt);
-  merging.seed = 300;
-  expect_agreement(expected, quarters(scene, merging), kBlurred);
   const Mean alpha = seen(scene, bdpt).alpha;
   EXPECT_TRUE(close(alpha, seen(scene, pt).alpha, 0.01));
   EXPECT_GT(1.0 - alpha.mean(), 0.005);

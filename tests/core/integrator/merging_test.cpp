@@ -2,6 +2,7 @@
 //
 // Vertex merging: it finds the same light as the other techniques, but for a blur, and finds
 // caustics behind a delta with less noise than anything else.
+#include <functional>
 #include <set>
 
 #include "janus/integrator/vertex_grid.h"
@@ -86,16 +87,87 @@ TEST(Merging, TakesHugeRadii) {
   }
 }
 
-TEST(Merging, KeepsTheRulesOfPaths) {
-  const NodeGraph pane =
-      combine("MIX_SHADER", diffuse(Rgb(0.7f)),
-              single("BSDF_TRANSPARENT", {{"Color", vec4(1, 0.9f, 0.8f, 1)}}), 0.7f);
-  const SceneKit kit = behind_glass(0.8f).add("pane", plane(1.8f, 1.8f), pane);
-  RenderSettings settings = merging(48);
-  settings.max_bounces = 3;
-  settings.max_diffuse_bounces = 1;
-  settings.transparent_max_bounces = 1;
-  expect_as_path_traced(kit, settings, 192, kTolerance);
+// A lamp of no size shines through one interface of glass on the floor, and the camera sees the
+// floor through another: what is in the picture has been merged.
+SceneKit merged_alone(RayMask first = kAllRays) {
+  SceneKit kit;
+  kit.add("first", plane(8, 8), glass(Rgb(1), 1.1f), translation({0, 0, 1}), first)
+      .add("floor", plane(4, 4), diffuse(Rgb(0.8f)))
+      .add("second", plane(1.5f, 1.5f), glass(Rgb(1), 1.1f),
+           translation({1, 0, 0.5f}) * rotation({0, 1, 0}, 1.4f))
+      .light("l", point_light({0, 0, 2}, 50))
+      .camera({1.8f, 0, 0.7f}, {0.3f, 0, 0}, 0.2f);
+  return kit;
+}
+
+double brightness(const SceneKit& kit, const std::function<void(RenderSettings&)>& change) {
+  RenderSettings settings = merging(4, 0.1f);
+  settings.max_bounces = 2;
+  change(settings);
+  return quarters(kit.build(), settings, 2)[0].mean();
+}
+
+TEST(Merging, IsAloneBetweenDeltas) {
+  EXPECT_GT(brightness(merged_alone(), [](RenderSettings&) {}), 0.1);
+  EXPECT_EQ(brightness(merged_alone(), [](RenderSettings& s) { s.merge_radius = 0.0f; }), 0.0);
+}
+
+TEST(Merging, KeepsLimitsOfBounces) {
+  const auto capped = [](int diffuse, int all) {
+    return brightness(merged_alone(), [&](RenderSettings& s) {
+      s.max_diffuse_bounces = diffuse;
+      s.max_bounces = all;
+    });
+  };
+  EXPECT_GT(capped(1, 2), 0.1);
+  EXPECT_EQ(capped(0, 2), 0.0);
+  EXPECT_EQ(capped(1, 1), 0.0);
+}
+
+TEST(Merging, KeepsLimitsOfCrossings) {
+  const NodeGraph clear = single("BSDF_TRANSPARENT", {{"Color", vec4(1)}});
+  const SceneKit kit =
+      merged_alone()
+          .add("on the light's side", plane(4, 4), clear, translation({0, 0, 0.95f}))
+          .add("on the camera's side", plane(1.5f, 1.5f), clear,
+               translation({1.1f, 0, 0.5f}) * rotation({0, 1, 0}, 1.4f));
+  const auto limited = [&](int crossings) {
+    return brightness(kit, [&](RenderSettings& s) { s.transparent_max_bounces = crossings; });
+  };
+  EXPECT_GT(limited(2), 0.1);
+  EXPECT_EQ(limited(1), 0.0);
+}
+
+TEST(Merging, KeepsRayVisibility) {
+  const auto hidden_from = [](RayType type) {
+    return brightness(merged_alone(static_cast<RayMask>(kAllRays & ~ray_bit(type))),
+                      [](RenderSettings&) {});
+  };
+  EXPECT_GT(hidden_from(RayType::Glossy), 0.1);
+  EXPECT_EQ(hidden_from(RayType::Diffuse), 0.0);
+}
+
+// Three panes before the world, the one in the middle rough: where they are clear, a transparent
+// film shows nothing of it.
+TEST(Merging, KeepsClearViews) {
+  const auto upright = [](float y) {
+    return translation({0, y, 0}) * rotation({1, 0, 0}, 1.5708f);
+  };
+  SceneKit kit;
+  kit.add("near", plane(4, 4), glass(Rgb(1), 1.1f), upright(-0.5f))
+      .add("rough", plane(4, 4), single("BSDF_REFRACTION", {{"Roughness", 0.3f}, {"IOR", 1.1f}}),
+           upright(0))
+      .add("far", plane(4, 4), glass(Rgb(1), 1.1f), upright(0.5f))
+      .world(Rgb(0.5f))
+      .camera({0, -2, 0}, {0, 0, 0}, 0.2f);
+  const auto clear_up_to = [&](float roughness) {
+    return brightness(kit, [&](RenderSettings& s) {
+      s.film_transparent = s.film_transparent_glass = true;
+      s.film_transparent_roughness = roughness;
+    });
+  };
+  EXPECT_GT(clear_up_to(0.2f), 0.1);
+  EXPECT_EQ(clear_up_to(0.4f), 0.0);
 }
 
 TEST(Merging, ManyWaves) {

@@ -23,14 +23,6 @@ inline RenderSettings small_picture(IntegratorType integrator, int samples) {
   return s;
 }
 
-// bdpt with merging in the place of connections, in scenes of the size of 1; it blurs.
-inline RenderSettings merged(RenderSettings settings) {
-  settings.merge_radius = 0.06f;
-  settings.connections = 0.0f;
-  return settings;
-}
-constexpr double kBlurred = 0.03;
-
 inline Image render(const std::shared_ptr<const Scene>& scene, const RenderSettings& settings) {
   RenderSession session(scene, settings);
   session.start();

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from mistake import one
 
-from mistakes.sources import CONNECT, MERGING, MERGING_RULES, MIS
+from mistakes.sources import CONNECT, MERGING, MIS
 
 MERGES = (
     one(
@@ -66,7 +66,7 @@ MERGES = (
         "labels-not-for-merges",
         0,
         "what is hidden from a ray is there where vertices are merged",
-        MERGING_RULES,
+        MERGING,
         CONNECT,
         "label = label.within(l.labels);\n    }\n    scale",
         "}\n    scale",
@@ -75,7 +75,7 @@ MERGES = (
         "caps-not-for-merges",
         0,
         "merging has no limits of bounces by kind",
-        MERGING_RULES,
+        MERGING,
         CONNECT,
         "scale *= rules.caps.share(l.bounces + c.bounces, label);",
         "",
@@ -84,7 +84,7 @@ MERGES = (
         "crossings-not-for-merges",
         0,
         "merging has a limit of crossings for each subpath",
-        MERGING_RULES,
+        MERGING,
         CONNECT,
         "l.crossings + c.crossings > rules.max_crossings ||\n      dot(",
         "dot(",
@@ -93,7 +93,7 @@ MERGES = (
         "merged-background-behind-glass",
         0,
         "merging at clear glass shows the background of a transparent film",
-        MERGING_RULES,
+        MERGING,
         CONNECT,
         "if (rules.clear_views() && c.clear && l.hidden) {\n    scale",
         "if (false) {\n    scale",
