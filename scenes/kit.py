@@ -18,6 +18,8 @@ Color = tuple[float, float, float]
 Point2 = tuple[float, float]
 Point3 = tuple[float, float, float]
 
+BOUNCES = ("max", "diffuse", "glossy", "transmission")
+
 
 # ---------------------------------------------------------------------------------------------
 # Scene
@@ -42,16 +44,21 @@ def neutral_settings(scene: bpy.types.Scene, width: int, height: int, samples: i
     render.use_compositing = False
     render.use_sequencer = False
     render.use_motion_blur = False
-    bounces = ("max", "diffuse", "glossy", "transmission")
     if hasattr(scene, "cycles"):
         unbiased_cycles(scene.cycles)
-        _set(scene.cycles, samples=samples, **{f"{kind}_bounces": 12 for kind in bounces})
+        _set(scene.cycles, samples=samples)
+        limit_bounces(scene.cycles, 12)
         _set(scene.cycles, transparent_max_bounces=8)
         _set(scene.cycles, pixel_filter_type="BLACKMAN_HARRIS", filter_width=1.5)
     if hasattr(scene, "janus"):
         _set(scene.janus, samples=samples, time_limit=0.0, transparent_max_bounces=8)
-        _set(scene.janus, **{f"{kind}_bounces": 12 for kind in bounces})
+        limit_bounces(scene.janus, 12)
         _set(scene.janus, pixel_filter_type="BLACKMAN_HARRIS", filter_width=1.5)
+
+
+def limit_bounces(settings: bpy.types.PropertyGroup, most: int) -> None:
+    """Of an engine, scene.cycles or scene.janus: of all bounces and of each kind."""
+    _set(settings, **{f"{kind}_bounces": most for kind in BOUNCES})
 
 
 def unbiased_cycles(cycles: bpy.types.PropertyGroup) -> None:

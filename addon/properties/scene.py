@@ -135,6 +135,22 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         soft_max=8.0,
         default=1.0,
     )
+    use_merging: BoolProperty(
+        name="Merge Vertices",
+        description="Also joins light paths and camera paths where they arrive at almost the same "
+        "place. Clears caustics that are seen in mirrors and through glass, and blurs light by the "
+        "radius, less with every sample. The numbers above are then not automatic",
+        default=False,
+    )
+    merge_radius: FloatProperty(
+        name="Merge Radius",
+        description="How far apart vertices may be to be merged in the first sample: the width of "
+        "the finest caustics that matter",
+        subtype="DISTANCE",
+        min=1e-6,
+        soft_max=1.0,
+        default=0.01,
+    )
     heuristic: EnumProperty(
         name="Heuristic",
         description="How the techniques that can find the same path share its light",

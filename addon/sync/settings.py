@@ -98,6 +98,7 @@ def render_settings(depsgraph) -> dict:
         "filter_width": 1.0 if filter_type == "BOX" else shared("filter_width"),
         "light_paths": janus.light_paths,
         "connections": janus.connections,
+        "merge_radius": janus.merge_radius if janus.use_merging else 0.0,
         "adaptive_counts": janus.adaptive_counts,
         "heuristic": janus.heuristic,
         "film_exposure": shared("film_exposure"),

@@ -63,10 +63,14 @@ class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
         column = column.column()
         column.active = janus.integrator == "BDPT"
         row = column.row()
-        row.active = janus.heuristic == "BALANCE"
+        row.active = janus.heuristic == "BALANCE" and not janus.use_merging
         row.prop(janus, "adaptive_counts")
         column.prop(janus, "light_paths")
         column.prop(janus, "connections")
+        column.prop(janus, "use_merging")
+        row = column.row()
+        row.active = janus.use_merging
+        row.prop(janus, "merge_radius")
         column.prop(janus, "heuristic")
 
 

@@ -35,7 +35,7 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
                              int transparent_max_bounces, float clamp_direct, float clamp_indirect,
                              const std::string& integrator, const std::string& filter,
                              float filter_width, float light_paths, float connections,
-                             bool adaptive_counts, const std::string& heuristic,
+                             float merge_radius, bool adaptive_counts, const std::string& heuristic,
                              float film_exposure, bool film_transparent,
                              bool film_transparent_glass, float film_transparent_roughness,
                              bool roulette, bool check_weights) {
@@ -61,6 +61,7 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
   s.filter_width = filter_width;
   s.light_paths = light_paths;
   s.connections = connections;
+  s.merge_radius = merge_radius;
   s.adaptive_counts = adaptive_counts;
   s.heuristic = from_name(kHeuristics, heuristic, "heuristic");
   s.film_exposure = film_exposure;
@@ -95,6 +96,7 @@ py::dict to_dict(const RenderSettings& s) {
   d["filter_width"] = s.filter_width;
   d["light_paths"] = s.light_paths;
   d["connections"] = s.connections;
+  d["merge_radius"] = s.merge_radius;
   d["adaptive_counts"] = s.adaptive_counts;
   d["heuristic"] = to_name(kHeuristics, s.heuristic);
   d["film_exposure"] = s.film_exposure;
@@ -119,28 +121,30 @@ void bind_settings(py::module_& m) {
       "limit; "
       "integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
       "pixels; light_paths per pixel; connections per camera vertex; "
+      "merge_radius: bdpt also merges vertices that are so close, in scene units, 0 for none; "
       "adaptive_counts: bdpt starts with these two and then takes what is most efficient for the "
       "scene; heuristic: BALANCE or POWER; "
       "film_exposure: a factor of the colour; film_transparent: the world is not in the picture; "
       "film_transparent_glass: nor behind glass of up to film_transparent_roughness; "
       "roulette: False traces every path and every shadow ray to its end (slow); "
       "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
-  settings.def(
-      py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
-      "crop"_a = py::none(), "samples"_a = d.samples, "seconds"_a = d.seconds, "seed"_a = d.seed,
-      "threads"_a = d.threads, "max_bounces"_a = d.max_bounces,
-      "max_diffuse_bounces"_a = d.max_diffuse_bounces,
-      "max_glossy_bounces"_a = d.max_glossy_bounces,
-      "max_transmission_bounces"_a = d.max_transmission_bounces,
-      "transparent_max_bounces"_a = d.transparent_max_bounces, "clamp_direct"_a = d.clamp_direct,
-      "clamp_indirect"_a = d.clamp_indirect, "integrator"_a = to_name(kIntegrators, d.integrator),
-      "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
-      "light_paths"_a = d.light_paths, "connections"_a = d.connections,
-      "adaptive_counts"_a = d.adaptive_counts, "heuristic"_a = to_name(kHeuristics, d.heuristic),
-      "film_exposure"_a = d.film_exposure, "film_transparent"_a = d.film_transparent,
-      "film_transparent_glass"_a = d.film_transparent_glass,
-      "film_transparent_roughness"_a = d.film_transparent_roughness, "roulette"_a = d.roulette,
-      "check_weights"_a = d.check_weights);
+  settings.def(py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
+               "crop"_a = py::none(), "samples"_a = d.samples, "seconds"_a = d.seconds,
+               "seed"_a = d.seed, "threads"_a = d.threads, "max_bounces"_a = d.max_bounces,
+               "max_diffuse_bounces"_a = d.max_diffuse_bounces,
+               "max_glossy_bounces"_a = d.max_glossy_bounces,
+               "max_transmission_bounces"_a = d.max_transmission_bounces,
+               "transparent_max_bounces"_a = d.transparent_max_bounces,
+               "clamp_direct"_a = d.clamp_direct, "clamp_indirect"_a = d.clamp_indirect,
+               "integrator"_a = to_name(kIntegrators, d.integrator),
+               "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
+               "light_paths"_a = d.light_paths, "connections"_a = d.connections,
+               "merge_radius"_a = d.merge_radius, "adaptive_counts"_a = d.adaptive_counts,
+               "heuristic"_a = to_name(kHeuristics, d.heuristic),
+               "film_exposure"_a = d.film_exposure, "film_transparent"_a = d.film_transparent,
+               "film_transparent_glass"_a = d.film_transparent_glass,
+               "film_transparent_roughness"_a = d.film_transparent_roughness,
+               "roulette"_a = d.roulette, "check_weights"_a = d.check_weights);
   settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
   settings.def("__repr__", [](const RenderSettings& s) {
     return py::str("RenderSettings(**{!r})").format(to_dict(s));
@@ -210,7 +214,7 @@ py::dict stats(const RenderSession& self) {
   d["joins"] =
       py::dict("connections"_a = c.connections, "connections_facing"_a = c.connections_facing,
                "connections_evaluated"_a = c.connections_evaluated, "nee"_a = c.nee_samples,
-               "splats"_a = c.splats);
+               "splats"_a = c.splats, "merges"_a = c.merges);
   d["light_vertices"] = c.light_vertices;
   d["light_cache_bytes"] = s.cache_bytes;
   d["dropped"] = c.dropped;

@@ -12,7 +12,6 @@ import bpy
 from scenes import kit
 from scenes.driver.addon import ENGINE
 
-BOUNCES = ("max", "diffuse", "glossy", "transmission")
 FOREVER = 1 << 24  # samples, where only the time is limited
 
 
@@ -68,7 +67,7 @@ def _apply_janus(scene: bpy.types.Scene, options: argparse.Namespace) -> None:
     given = {
         "samples": samples,
         "time_limit": options.seconds,
-        **dict.fromkeys(map("{}_bounces".format, BOUNCES), options.max_bounces),
+        **dict.fromkeys(map("{}_bounces".format, kit.BOUNCES), options.max_bounces),
         "integrator": options.integrator and options.integrator.upper(),
         "pixel_filter_type": filter_name(options),
         "seed": options.seed,
@@ -96,8 +95,7 @@ def _apply_cycles(scene: bpy.types.Scene, options: argparse.Namespace) -> None:
     if options.seconds is not None or options.samples:
         cycles.time_limit = options.seconds or 0.0
     if options.max_bounces is not None:
-        for kind in BOUNCES:
-            setattr(cycles, f"{kind}_bounces", options.max_bounces)
+        kit.limit_bounces(cycles, options.max_bounces)
     if options.filter:
         cycles.pixel_filter_type = filter_name(options)
     if options.seed is not None:

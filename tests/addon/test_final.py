@@ -69,6 +69,7 @@ def test_settings_reach_the_core(scene, fake_core):
     janus.sample_clamp_direct, janus.sample_clamp_indirect = 0.5, 10.0
     janus.integrator, janus.heuristic = "PT", "POWER"
     janus.light_paths, janus.connections = 0.5, 2.0
+    janus.use_merging, janus.merge_radius = True, 0.25
     janus.pixel_filter_type, janus.filter_width = "GAUSSIAN", 2.0
     janus.film_exposure, janus.film_transparent_glass = 1.5, True
     janus.film_transparent_roughness = 0.25
@@ -94,12 +95,19 @@ def test_settings_reach_the_core(scene, fake_core):
         "light_paths": 0.5,
         "connections": 2.0,
         "heuristic": "POWER",
+        "merge_radius": 0.25,
         "adaptive_counts": True,
         "film_exposure": 1.5,
         "film_transparent": True,
         "film_transparent_glass": True,
         "film_transparent_roughness": 0.25,
     }
+
+
+def test_nothing_is_merged_by_default(scene, fake_core):
+    scene.janus.merge_radius = 0.25
+    bpy.ops.render.render()
+    assert fake_core.settings.merge_radius == 0.0
 
 
 def test_the_width_of_a_box_filter_is_one_pixel_as_in_cycles(scene, fake_core):

@@ -100,18 +100,27 @@ class References:
         seen, expected = self.differ(one, other)
         return seen <= AGREE * expected
 
-    def choose(self, measured) -> Reference:
+    def choose(self, measured: Callable[[np.ndarray, Callable[..., float]], float]) -> Reference:
         """pt and Cycles together if they agree and are good enough, otherwise bdpt.
 
-        `measured(picture)` is the smallest error that is to be measured against that picture.
+        `measured(picture, of)` is the smallest error `of` that is to be measured against a picture.
+        Good are those whose own error is a tenth of that, with and without the largest errors:
+        where these are fireflies of the reference itself, they are in both sides of the first.
         """
+        metrics = (relative_error, trimmed_error)
+
+        def reference(picture: np.ndarray, kind: str, errors: list[float]) -> Reference:
+            limits = [0.1 * measured(picture, of) for of in metrics]
+            good = all(error <= limit for error, limit in zip(errors, limits, strict=True))
+            return Reference(picture, kind, errors[0], good)
+
         weights = {kind: 1.0 / max(self.error(kind), 1e-12) for kind in ("pt", "cycles")}
         total = sum(weights.values())
-        both = sum(self.picture(kind) * w for kind, w in weights.items()) / total
-        found = Reference(
-            both, "pt + Cycles", 1.0 / total, bool(1.0 / total <= 0.1 * measured(both))
-        )
+        shares = {kind: weight / total for kind, weight in weights.items()}
+        both = sum(self.picture(kind) * share for kind, share in shares.items())
+        errors = [sum(self.error(k, of) * w**2 for k, w in shares.items()) for of in metrics]
+        found = reference(both, "pt + Cycles", errors)
         if found.good and self.agree("pt", "cycles"):
             return found
-        own, error = self.picture("bdpt"), self.error("bdpt")
-        return Reference(own, "bdpt", error, bool(error <= 0.1 * measured(own)))
+        own = [self.error("bdpt", of) for of in metrics]
+        return reference(self.picture("bdpt"), "bdpt", own)

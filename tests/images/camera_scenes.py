@@ -62,8 +62,7 @@ def build(case: str):
 
     scene = bpy.context.scene
     kit.neutral_settings(scene, 48, 32, SAMPLES)
-    for kind in ("max", "diffuse", "glossy", "transmission"):
-        setattr(scene.cycles, f"{kind}_bounces", BOUNCES)
+    kit.limit_bounces(scene.cycles, BOUNCES)
     kit.world(scene)
     room = kit.box(scene, "Room", (6, 8, 3), kit.diffuse("Wall", (0.7, 0.65, 0.6)))
     room.location = (0.3, 1.5, -0.2)

@@ -148,6 +148,5 @@ def build(name: str):
     cycles.film_exposure = case.get("exposure", 1.0)
     cycles.film_transparent_glass = "clear" in case
     cycles.film_transparent_roughness = case.get("clear", 0.1)
-    for kind in ("max", "diffuse", "glossy", "transmission"):
-        setattr(cycles, f"{kind}_bounces", BOUNCES)
+    kit.limit_bounces(cycles, BOUNCES)
     return scene

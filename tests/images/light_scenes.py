@@ -127,8 +127,7 @@ def build(name: str):
     kit.quad(scene, "Floor", corners, white)
     kit.box(scene, "Block", (0.5, 0.4, 0.6), white).rotation_euler = (0, 0, 0.4)
     kit.camera(scene, (0.0, -4.0, 3.2), (0.0, 0.1, 0.1), lens=55.0)
-    for kind in ("max", "diffuse", "glossy", "transmission"):
-        setattr(scene.cycles, f"{kind}_bounces", 1)
+    kit.limit_bounces(scene.cycles, 1)
     if name in LIGHTS:
         lamp(scene, **LIGHTS[name])
     else:

@@ -10,12 +10,11 @@ SEEDS, SAMPLES, BOUNCES = 6, 256, 4
 def build(name: str):
     import bpy
 
-    from scenes import panes
+    from scenes import kit, panes
 
     scene = bpy.context.scene
     panes.build(scene)
     scene.render.film_transparent = CASES[name]
     scene.cycles.samples = SAMPLES
-    for kind in ("max", "diffuse", "glossy", "transmission"):
-        setattr(scene.cycles, f"{kind}_bounces", BOUNCES)
+    kit.limit_bounces(scene.cycles, BOUNCES)
     return scene

@@ -63,7 +63,8 @@ def room(scene) -> None:
 
 
 def no_glass(scene) -> None:
-    """Where light shines through the ball: rough glass that is lit from within is darker here."""
+    """Where light shines through the ball: in rough glass that is lit from within, Cycles' next
+    event estimation also counts refraction by microfacets that face into the surface."""
     scene.objects["Ball"].data.materials[0] = scene.objects["Leaf"].data.materials[0]
 
 

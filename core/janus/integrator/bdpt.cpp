@@ -5,12 +5,16 @@
 // emission hits (s=0), next event estimation (s=1) and C connections per vertex to cache entries
 // picked uniformly. Counts may be zero: without light paths this is a path tracer.
 //
+// With a merge radius, each camera vertex is also merged with the cached vertices around it
+// (Georgiev et al. 2012): that finds caustics which are seen in mirrors or through glass, and blurs
+// light by the radius, which shrinks from pass to pass.
+//
 // To bound the cache, a pass runs in waves: a range of its light paths with a cache of their own,
 // then an interleaved subset of its pixels.
 #include "janus/integrator/adaptive_counts.h"
+#include "janus/integrator/merging.h"
 #include "janus/integrator/pass.h"
 #include "janus/integrator/roulette_map.h"
-#include "janus/integrator/vertex_cache.h"
 #include "janus/path/oracle.h"
 
 namespace janus {
@@ -27,7 +31,8 @@ class Bdpt final : public PassIntegrator {
   Bdpt(const RenderContext& context, const IntegratorSettings& settings)
       : PassIntegrator(context, settings),
         effort_{settings.light_paths, settings.connections},
-        mis_(settings.heuristic, counts_) {
+        mis_(settings.heuristic, counts_),
+        merging_(settings.merge_radius, context.scene.accel->bounds()) {
     run_pilot();
     set_effort(effort_);
     if (!settings_.only && !settings_.check_weights) {
@@ -49,6 +54,11 @@ class Bdpt final : public PassIntegrator {
       meter_.emplace(counts_);
     }
     const Counters before = counters();
+    if (merges()) {
+      merging_.begin_pass(pass);
+      counts_.merge = merging_.count(static_cast<float>(light_paths_) / static_cast<float>(waves_));
+      renew_weights();
+    }
     for (size_t wave = 0; wave < waves_; ++wave) {
       trace_lights(wave);
       trace_camera(pass, wave);
@@ -71,10 +81,12 @@ class Bdpt final : public PassIntegrator {
  private:
   // Weights with a square tell less about other counts, and debugging wants the counts given.
   bool adapts() const {
-    return settings_.adaptive_counts && settings_.heuristic == Heuristic::Balance &&
+    return settings_.adaptive_counts && settings_.heuristic == Heuristic::Balance && !merges() &&
            !settings_.only && effort_.light_paths > 0.0f && effort_.connections > 0.0f &&
            light_paths_ > 0 && counts_.connection > 0.0f;
   }
+
+  bool merges() const { return merging_.used() && light_paths_ > 0 && !settings_.only; }
 
   // Are there paths that camera walks cannot make? A light that cannot be hit, behind a delta.
   bool needs_light_paths() const {
@@ -92,7 +104,8 @@ class Bdpt final : public PassIntegrator {
   // Measures the vertices that a light path leaves in the cache. The weights need that number
   // before the pass: with the pass's own count, weight and estimate would be correlated.
   void run_pilot() {
-    if (light_path_count(effort_.light_paths) == 0 || effort_.connections == 0.0f) {
+    if (light_path_count(effort_.light_paths) == 0 ||
+        (effort_.connections == 0.0f && !merging_.used())) {
       return;
     }
     constexpr size_t kBlocks = 16;
@@ -112,6 +125,9 @@ class Bdpt final : public PassIntegrator {
       bytes += c.bytes();
     }
     vertices_per_path_ = static_cast<float>(vertices) / kPilotPaths;
+    if (merging_.used()) {
+      bytes += vertices * VertexGrid::kBytesPerVertex;
+    }
     bytes_per_path_ = static_cast<double>(bytes) / kPilotPaths;
   }
 
@@ -121,16 +137,19 @@ class Bdpt final : public PassIntegrator {
     counts_.splat = static_cast<float>(light_paths_);
     const bool connect = light_paths_ > 0 && effort.connections > 0.0f && vertices_per_path_ > 0.0f;
     counts_.connection = connect ? effort.connections / vertices_per_path_ : 0.0f;
-    const double pass_bytes = connect ? bytes_per_path_ * static_cast<double>(light_paths_) : 0.0;
+    const double pass_bytes =
+        connect || merges() ? bytes_per_path_ * static_cast<double>(light_paths_) : 0.0;
     // A wave without light paths would leave its pixels without connections.
     waves_ = std::min(1 + static_cast<size_t>(1.1 * pass_bytes / settings_.cache_bytes),
                       std::max<size_t>(1, light_paths_ / kLightBlock));
-    mis_ = Mis(settings_.heuristic, counts_);
+    renew_weights();
   }
+  void renew_weights() { mis_ = Mis(settings_.heuristic, counts_); }
 
   // A vertex that no camera vertex may join within the length limit is not worth its place.
   void cache(const PathVertex& v, CacheBlock& cache) const {
-    if (v.bsdf().connectible() && v.edges + 2 <= v.max_edges && v.possible_labels(false) != 0) {
+    const int least = merging_.used() ? 1 : 2;  // edges that a join adds
+    if (v.bsdf().connectible() && v.edges + least <= v.max_edges && v.possible_labels(false) != 0) {
       cache.add(v);
     }
   }
@@ -140,7 +159,7 @@ class Bdpt final : public PassIntegrator {
     wave_paths_ = end - begin;
     const size_t blocks = (wave_paths_ + kLightBlock - 1) / kLightBlock;
     const float margin = context_.film.filter().radius();
-    const bool connect = counts_.connection > 0.0f;
+    const bool keep = counts_.connection > 0.0f || merges();
     const std::span<CacheBlock> caches = cache_.start(blocks);
     splats_.resize(std::max(splats_.size(), blocks));
     const std::span splats = std::span(splats_).first(blocks);
@@ -157,7 +176,7 @@ class Bdpt final : public PassIntegrator {
                             [&](const PathVertex& v, Sampler& walk) {
                               splat(v, walk, margin, splats[block], moments[meter_ ? block : 0],
                                     counters);
-                              if (connect) {
+                              if (keep) {
                                 cache(v, caches[block]);
                               }
                             });
@@ -169,6 +188,9 @@ class Bdpt final : public PassIntegrator {
     collect(moments);
     cache_.finish();
     cache_bytes_ = std::max(cache_bytes_, cache_.bytes());
+    if (merges()) {
+      merging_.build(cache_, wave_paths_);
+    }
   }
 
   // The value of a join whose technique has `s` light vertices and `t` camera vertices.
@@ -271,6 +293,10 @@ class Bdpt final : public PassIntegrator {
             const Picks picks = pick(walk);
             gather(next_event(v, roulette, walk, meter, counters));
             gather(connect(v, picks, roulette, walk, meter, counters));
+            if (merges()) {
+              context_.cancel.throw_if_cancelled();  // with a large radius there is much to do
+              gather(merging_.gather(v, mis_, settings_.walk, settings_.clamp, counters));
+            }
           }
         });
     context_.film.add_sample(index, sum, alpha);
@@ -371,6 +397,7 @@ class Bdpt final : public PassIntegrator {
   std::optional<AdaptiveCounts> meter_;  // while the counts are measured
   AdaptiveCounts::Moments moments_;
   VertexCache cache_;
+  Merging merging_;
   std::vector<std::vector<Splat>> splats_;  // by block of light paths
   size_t cache_bytes_ = 0;                  // the largest so far
   RouletteMap roulette_;

@@ -30,6 +30,8 @@ struct IntegratorSettings {
   Heuristic heuristic = Heuristic::Balance;
   float light_paths = 1.0f;  // per pixel
   float connections = 1.0f;  // per camera vertex, expected
+  // bdpt: how far apart vertices may be to be merged in the first pass, scene units; 0: not at all.
+  float merge_radius = 0.0f;
   // bdpt: the first two passes have these counts, and the others what these passes recommend.
   bool adaptive_counts = false;
   uint32_t seed = 0;

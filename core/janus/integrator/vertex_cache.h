@@ -79,6 +79,16 @@ class VertexCache {
     return sum;
   }
 
+  // In the order of the light paths.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (size_t i = 0; i < count_; ++i) {
+      for (const LightVertex& v : blocks_[i].vertices) {
+        visit(v);
+      }
+    }
+  }
+
   struct Entry {
     const CacheBlock* block;
     const LightVertex* vertex;

@@ -158,6 +158,38 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   return joined;
 }
 
+std::optional<Merge> merge_vertices(const LightVertex& l, const PathVertex& c, const Mis& mis,
+                                    const PathRules& rules, float scale) {
+  constexpr float kSameSurface = 0.7f;  // cosine between the normals
+  std::optional<Merge> merged;
+  const int edges = l.edges + c.edges;
+  if (edges > l.max_edges || l.crossings + c.crossings > rules.max_crossings ||
+      dot(l.ng, c.hit.ng) < kSameSurface) {
+    return merged;
+  }
+  const BsdfView bsdf = c.bsdf();
+  const float cos_light = dot(l.wi, c.hit.ng);
+  const BsdfEval e = bsdf.evaluate(c.back, l.wi, TransportMode::Radiance);
+  if (is_black(e.f)) {
+    return merged;
+  }
+  if (rules.ray_types || rules.caps_bind(edges)) {
+    auto label = LabelShares::joined(e, cos_light * dot(c.back, c.hit.ng) < 0.0f);
+    if (rules.ray_types) {
+      label = label.within(l.labels);
+    }
+    scale *= rules.caps.share(l.bounces + c.bounces, label);
+  }
+  if (rules.clear_views() && c.clear && l.hidden) {
+    scale *= 1.0f - clear_share(rules, bsdf, c.back, l.wi);
+  }
+  // The light path's throughput is flux, which the surface's area shares: f without its cosine.
+  merged.emplace();
+  merged->value = c.beta * e.f * l.beta * (scale / std::abs(cos_light));
+  merged->weight = mis.weight_merge(l.mis, e.pdf_radiance, c.mis, e.pdf_importance);
+  return merged;
+}
+
 std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera, vec2 u_lens,
                                              float margin, const Mis& mis, const PathRules& rules) {
   std::optional<CameraSplat> splat;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The deterministic ends of the techniques: next event estimation (s=1), vertex connections
-// (s,t >= 2) and the connection to the camera (t=1). Each returns its contribution for one sample
-// of count 1, with `weight` apart so that a technique can also be seen alone; visibility is left
-// to the caller's ray. The rules of path/rules.h are in the value.
+// (s,t >= 2), the connection to the camera (t=1) and the merging of vertices. Each returns its
+// contribution for one sample of count 1, with `weight` apart so that a technique can also be seen
+// alone; visibility is left to the caller's ray. The rules of path/rules.h are in the value.
 #pragma once
 
 #include <optional>
@@ -63,6 +63,17 @@ std::optional<Connection> connect_vertices(const LightVertex& light_vertex, Bsdf
                                            const PathRules& rules, float scale,
                                            const Roulette& roulette, Sampler& sampler,
                                            Counters& counters);
+
+// A light vertex behind z_1 and a camera vertex at about the same place taken as one (vertex
+// merging, Georgiev et al. 2012). `scale`: 1 / (pi r^2) over the number of light paths, where r is
+// how far apart they may be. Blurs the light that falls on the surface by as much.
+struct Merge {
+  Rgb value;
+  MisWeight weight;
+};
+std::optional<Merge> merge_vertices(const LightVertex& light_vertex,
+                                    const PathVertex& camera_vertex, const Mis& mis,
+                                    const PathRules& rules, float scale);
 
 struct CameraSplat {
   Connection connection;

@@ -15,6 +15,7 @@ struct Counters {
   // with a value. What is left after roulette on the value is connection_rays.
   uint64_t connections = 0, connections_facing = 0, connections_evaluated = 0;
   uint64_t nee_samples = 0, splats = 0;  // with a value, before roulette
+  uint64_t merges = 0;                   // with a value
   uint64_t light_vertices = 0;           // cached
   uint64_t dropped = 0;                  // contributions not finite
 
@@ -31,7 +32,7 @@ inline Counters& Counters::combine(const Counters& o, int sign) {
         &Counters::light_rays, &Counters::nee_rays, &Counters::connection_rays,
         &Counters::splat_rays, &Counters::connections, &Counters::connections_facing,
         &Counters::connections_evaluated, &Counters::nee_samples, &Counters::splats,
-        &Counters::light_vertices, &Counters::dropped}) {
+        &Counters::merges, &Counters::light_vertices, &Counters::dropped}) {
     this->*field += static_cast<uint64_t>(sign) * o.*field;
   }
   return *this;

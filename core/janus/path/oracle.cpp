@@ -85,6 +85,8 @@ struct FullPath {
   double count(int s, const SampleCounts& n) const {
     return s == 0 ? n.hit : s == 1 ? n.nee : s == k() ? n.splat : n.connection;
   }
+  // Of both walks arriving at z_i, i >= 2, per area of the neighbourhood that counts as z_i.
+  double merge_density(int i) const { return density(i) * pf(i); }
   double weight(int s, Heuristic heuristic, const SampleCounts& counts) const {
     const double exponent = heuristic == Heuristic::Power ? 2.0 : 1.0;
     double total = 0.0, own = 0.0;
@@ -95,6 +97,9 @@ struct FullPath {
       const double term = std::pow(count(i, counts) * density(i), exponent);
       total += term;
       own = i == s ? term : own;
+    }
+    for (int i = 2; i < k() && counts.merge > 0.0f; ++i) {
+      total += z(i).delta ? 0.0 : std::pow(counts.merge * merge_density(i), exponent);
     }
     return total > 0.0 ? own / total : 0.0;
   }

@@ -201,8 +201,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
 // Traces one camera subpath through `raster`. Calls on_light(const LightFound&) for all light on
 // its segments and on_vertex(const PathVertex&, Sampler&) at z_{k-1}, z_{k-2}, ...; returns film
 // alpha: the share of the camera ray that did not end in a hole, or on a transparent film's
-// background. The sampler's block 0 belongs to
-// the caller (film) and the lens.
+// background. The sampler's block 0 belongs to the caller (film) and the lens.
 template <class OnLight, class OnVertex>
 float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster, const Mis& mis,
                            const WalkSettings& settings, Sampler& sampler, Counters& counters,

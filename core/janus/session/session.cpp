@@ -84,6 +84,7 @@ void RenderSession::run() {
   integrator_settings.heuristic = settings_.heuristic;
   integrator_settings.light_paths = settings_.light_paths;
   integrator_settings.connections = settings_.connections;
+  integrator_settings.merge_radius = settings_.merge_radius;
   integrator_settings.adaptive_counts = settings_.adaptive_counts;
   integrator_settings.seed = settings_.seed;
   integrator_settings.cache_bytes = settings_.cache_bytes;

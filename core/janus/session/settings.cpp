@@ -46,6 +46,8 @@ void RenderSettings::validate() const {
           "must be from 0 to 64 per pixel");
   require(std::isfinite(connections) && connections >= 0.0f && connections <= 64.0f, "connections",
           "must be from 0 to 64 per vertex");
+  require(std::isfinite(merge_radius) && merge_radius >= 0.0f, "merge_radius",
+          "must be finite and at least 0");
   require(integrator != IntegratorType::LightTracer || light_paths > 0.0f, "light_paths",
           "must be above 0 for light tracing");
 }

@@ -30,6 +30,7 @@ struct RenderSettings {
   float filter_width = 1.5f;     // pixels
   float light_paths = 1.0f;      // per pixel
   float connections = 1.0f;      // per camera vertex
+  float merge_radius = 0.0f;     // bdpt: IntegratorSettings::merge_radius
   bool adaptive_counts = false;  // bdpt: IntegratorSettings::adaptive_counts
   Heuristic heuristic = Heuristic::Balance;
   float film_exposure = 1.0f;  // a factor of the finished picture's colour

@@ -7,10 +7,12 @@ them: they multiply column vectors, so the translation is in the last column.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal, TypedDict, final
+from typing import Any, Literal, final
 
 import numpy as np
 import numpy.typing as npt
+
+from ._typed_dicts import Counts, Progress, Stats
 
 __version__: str
 
@@ -32,34 +34,6 @@ class IoError(Error):
 
 class Cancelled(Error):
     """The work was cancelled."""
-
-class _Counts(TypedDict):
-    meshes: int
-    instances: int
-    triangles: int
-    lights: int
-    materials: int
-
-class _Progress(TypedDict):
-    samples: int
-    target_samples: int
-    seconds: float
-    remaining: float | None
-    state: Literal["waiting", "rendering", "done", "cancelled", "failed"]
-
-class _Stats(TypedDict):
-    samples: int
-    seconds: float
-    paths: dict[Literal["camera", "light"], int]
-    rays: dict[Literal["camera", "light", "nee", "connection", "splat"], int]
-    joins: dict[
-        Literal["connections", "connections_facing", "connections_evaluated", "nee", "splats"], int
-    ]
-    light_vertices: int
-    light_cache_bytes: int
-    dropped: int
-    effort: dict[Literal["light_paths", "connections"], float]
-    weight_error: float
 
 @final
 class Diagnostic:
@@ -89,13 +63,16 @@ class Scene:
     def diagnostics(self) -> list[Diagnostic]:
         """What could not be rendered as asked."""
     @property
-    def counts(self) -> _Counts:
+    def counts(self) -> Counts:
         """Numbers of meshes, instances, triangles (with instances), materials, and lights (sources
         with a sampling of their own: lamps, emitting objects, the world)."""
 
 @final
 class SceneBuilder:
-    """Collects a scene description, which is copied. Setting a key again replaces the item."""
+    """Collects a scene description. Keys are the caller's; setting a key again replaces the item.
+
+    All data is copied.
+    """
 
     def __init__(self) -> None: ...
     def set_mesh(
@@ -177,7 +154,8 @@ class SceneBuilder:
         """Places the mesh with the key `mesh` in the world.
 
         transform: float[4, 4], object to world. materials: a key for each slot, or None for the
-        default surface. visible_*: the rays that meet it; holdout: a hole where the camera sees it.
+        default surface. visible_*: the rays that meet it, as in Blender. holdout: it
+        leaves a hole where the camera sees it.
         """
     def set_light(
         self,
@@ -291,6 +269,7 @@ class RenderSettings:
         filter_width: float = 1.5,
         light_paths: float = 1.0,
         connections: float = 1.0,
+        merge_radius: float = 0.0,
         adaptive_counts: bool = False,
         heuristic: Literal["BALANCE", "POWER"] = "BALANCE",
         film_exposure: float = 1.0,
@@ -361,6 +340,9 @@ class RenderSettings:
     def connections(self) -> float:
         """Connections per vertex of a camera path."""
     @property
+    def merge_radius(self) -> float:
+        """Bidirectional: how far apart vertices may be to be merged; 0: not at all."""
+    @property
     def adaptive_counts(self) -> bool:
         """Bidirectional: starts with the two counts, then takes what is most efficient."""
     @property
@@ -388,14 +370,16 @@ class RenderSettings:
 @final
 class RenderSession:
     """One render, on threads of its own that never run Python. Dropping it cancels it.
-    Methods may be called from any thread."""
+
+    Methods may be called from any thread.
+    """
 
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def start(self) -> None:
         """Starts the render and returns. Once only."""
     def wait(self, seconds: float) -> bool:
         """Waits up to `seconds` for the end, without the GIL; True if the render has ended."""
-    def progress(self) -> _Progress:
+    def progress(self) -> Progress:
         """samples, target_samples, seconds (since start), remaining (seconds, None before the
         first pass) and state."""
     def cancel(self) -> None:
@@ -405,7 +389,7 @@ class RenderSession:
         premultiplied alpha, bottom row first. A new array each time."""
     def finish(self) -> None:
         """Waits for the end and raises what went wrong on the render threads, if anything."""
-    def stats(self) -> _Stats:
+    def stats(self) -> Stats:
         """Whole passes (samples), seconds of rendering, paths and rays by kind, joins (how far they
         came before they were given up), light_vertices (kept in the cache) and light_cache_bytes
         (its largest size), dropped (values that were not finite), weight_error (with check_weights:

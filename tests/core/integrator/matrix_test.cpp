@@ -48,9 +48,7 @@ std::vector<Pictures> render_all(const std::vector<Combination>& cases, MakeScen
       const auto scene = make(cases[i]).build();
       EXPECT_TRUE(scene->diagnostics.empty()) << name(cases[i]);
       const auto picture = [&](IntegratorType integrator, int count) {
-        const int more = integrator != IntegratorType::LightTracer ? 4
-                         : light_of(cases[i]).sparse               ? 20
-                                                                   : 8;
+        const int more = integrator == IntegratorType::LightTracer ? 24 : 6;
         RenderSettings settings = small_picture(integrator, full() ? more * count : count);
         settings.max_bounces = 4;
         settings.threads = 1;

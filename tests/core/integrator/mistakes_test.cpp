@@ -9,16 +9,6 @@
 namespace janus::test {
 namespace {
 
-void expect_as_path_traced(const SceneKit& kit, RenderSettings settings, int reference,
-                           double tolerance = 0.02) {
-  const auto scene = kit.build();
-  EXPECT_TRUE(scene->diagnostics.empty());
-  RenderSettings pt = settings;
-  pt.integrator = IntegratorType::PathTracer;
-  pt.samples = samples(reference);
-  expect_agreement(quarters(scene, settings), quarters(scene, pt), tolerance);
-}
-
 SceneKit lit_box() { return open_box().light("l", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.5f, 20)); }
 
 // The number of cached vertices varies by half of itself from pass to pass; weights must not.

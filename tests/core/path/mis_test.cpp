@@ -53,22 +53,32 @@ struct RandomPath {
   }
 };
 
+// Of a merge at z_i, 2 <= i < k.
+double merge_density(const RandomPath& path, int i) { return path.density(i) * path.pf(i); }
+
 float count(const SampleCounts& n, int s, int k) {
   return s == 0 ? n.hit : s == 1 ? n.nee : s == k ? n.splat : n.connection;
 }
 
-// The weight of technique s by the recursion. `wrong` spoils one density: a bug to be found.
-float recursive_weight(const RandomPath& path, const Mis& mis, int s, float wrong = 1.0f) {
+// The states of both subpaths, at z_light and at z_camera. `wrong` spoils one density.
+std::pair<MisState, MisState> walked(const RandomPath& path, const Mis& mis, int to_light,
+                                     int to_camera, float wrong) {
   MisState light = mis.begin_light(path.joint, path.pdf_nee, path.hittable);
-  for (int i = 1; i < s - 1; ++i) {
+  for (int i = 1; i < to_light; ++i) {
     light = mis.advance(mis.behind(light, path.delta[i], path.backward[i]), path.delta[i],
                         wrong * path.to_camera[i], path.pf(i + 1));
   }
   MisState camera = mis.begin_camera(path.pr(path.k - 1));
-  for (int i = path.k - 1; i > std::max(1, s); --i) {
+  for (int i = path.k - 1; i > to_camera; --i) {
     camera = mis.advance(mis.behind(camera, path.delta[i], path.forward[i]), path.delta[i],
                          path.to_light[i], path.pr(i - 1));
   }
+  return {light, camera};
+}
+
+// The weight of technique s by the recursion. `wrong` spoils one density: a bug to be found.
+float recursive_weight(const RandomPath& path, const Mis& mis, int s, float wrong = 1.0f) {
+  const auto [light, camera] = walked(path, mis, s - 1, std::max(1, s), wrong);
   if (s == 0) {
     return mis
         .weight_hit(path.pr(0), path.delta[1], path.pdf_nee, path.joint,
@@ -90,6 +100,11 @@ float recursive_weight(const RandomPath& path, const Mis& mis, int s, float wron
       .value;
 }
 
+float recursive_weight_of_merge(const RandomPath& path, const Mis& mis, int i) {
+  const auto [light, camera] = walked(path, mis, i, i, 1.0f);
+  return mis.weight_merge(light, path.backward[i], camera, path.forward[i]).value;
+}
+
 class MisRecursion : public ::testing::TestWithParam<std::tuple<Heuristic, SampleCounts>> {};
 
 TEST_P(MisRecursion, FollowsTheDefinition) {
@@ -104,6 +119,9 @@ TEST_P(MisRecursion, FollowsTheDefinition) {
     for (int s = 0; s <= path.k; ++s) {
       total += path.allowed(s) ? std::pow(count(counts, s, path.k) * path.density(s), exponent) : 0;
     }
+    for (int i = 2; i < path.k; ++i) {
+      total += path.delta[i] ? 0 : std::pow(counts.merge * merge_density(path, i), exponent);
+    }
     if (total == 0) {
       continue;
     }
@@ -115,6 +133,15 @@ TEST_P(MisRecursion, FollowsTheDefinition) {
         EXPECT_NEAR(weight, std::pow(own * path.density(s), exponent) / total, 1e-5);
         sum += weight;
         spoilt_sum += recursive_weight(path, mis, s, 1.05f);
+      }
+    }
+    for (int i = 2; i < path.k && counts.merge > 0; ++i) {
+      if (!path.delta[i]) {
+        const float weight = recursive_weight_of_merge(path, mis, i);
+        EXPECT_NEAR(weight, std::pow(counts.merge * merge_density(path, i), exponent) / total,
+                    1e-5);
+        sum += weight;
+        spoilt_sum += weight;
       }
     }
     EXPECT_NEAR(sum, 1, 2e-5);
@@ -133,7 +160,9 @@ INSTANTIATE_TEST_SUITE_P(
                                          SampleCounts{0, 1, 1, 1}, SampleCounts{1, 0, 1, 1},
                                          SampleCounts{1, 1, 0, 20}, SampleCounts{1, 1, 1, 0},
                                          SampleCounts{1, 1, 0, 0}, SampleCounts{0, 0, 0, 3},
-                                         SampleCounts{0, 0, 1, 0})));
+                                         SampleCounts{0, 0, 1, 0}, SampleCounts{1, 1, 1, 5, 2},
+                                         SampleCounts{1, 1, 0.3f, 500, 0.2f},
+                                         SampleCounts{0, 0, 0, 0, 1})));
 
 }  // namespace
 }  // namespace janus::test

@@ -181,6 +181,7 @@ TEST_P(Oracle, WeightsFollowTheDefinition) {
       {1, 1, 0, 0},   // path tracing
       {0, 0, 0, 64},  // light tracing
       {0.3f, 2.5f, 7, 0.2f},
+      {1, 1, 1, 300, 0.5f},  // with merging, which takes its share
   };
   for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {
     for (const SampleCounts& counts : settings) {

@@ -15,8 +15,7 @@ namespace janus::test {
 struct LightLevel {
   std::string name;
   std::function<void(SceneKit&)> add;
-  bool delta = false;   // a point or one direction: no ray hits it
-  bool sparse = false;  // most of its light paths miss the scene
+  bool delta = false;  // a point or one direction: no ray hits it
 };
 
 struct ClosureLevel {
@@ -74,8 +73,8 @@ inline std::vector<LightLevel> light_levels() {
        [](SceneKit& kit) {
          kit.add("lamp", plane(0.8f, 0.6f), emission(Rgb(1, 0.9f, 0.8f), 10), look_at(from, to));
        }},
-      {"world", [](SceneKit& kit) { kit.world(Rgb(0.5f, 0.7f, 1)); }, false, true},
-      {"world_image", [sky](SceneKit& kit) { kit.world(sky); }, false, true},
+      {"world", [](SceneKit& kit) { kit.world(Rgb(0.5f, 0.7f, 1)); }},
+      {"world_image", [sky](SceneKit& kit) { kit.world(sky); }},
   };
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "janus/session/session.h"
+#include "support/scene_kit.h"
 #include "support/statistics.h"
 
 namespace janus::test {
@@ -62,6 +63,17 @@ inline void expect_agreement(const std::vector<Mean>& a, const std::vector<Mean>
   for (size_t k = 0; k < a.size(); ++k) {
     EXPECT_TRUE(agree(a[k], b[k], 4.8)) << (k ? "quarter " + std::to_string(k) : "picture");
   }
+}
+
+// The settings against path tracing with as many as `reference` samples in a quick run.
+inline void expect_as_path_traced(const SceneKit& kit, const RenderSettings& settings,
+                                  int reference, double tolerance = 0.02) {
+  const auto scene = kit.build();
+  EXPECT_TRUE(scene->diagnostics.empty());
+  RenderSettings pt = settings;
+  pt.integrator = IntegratorType::PathTracer;
+  pt.samples = samples(reference);
+  expect_agreement(quarters(scene, settings), quarters(scene, pt), tolerance);
 }
 
 // bdpt against pt, and against lt where that sees everything. `count`: samples of bdpt and lt in a

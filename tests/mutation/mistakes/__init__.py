@@ -6,8 +6,9 @@ from __future__ import annotations
 from mistakes.clear_views import CLEAR
 from mistakes.densities import DENSITIES
 from mistakes.film import FILM_AND_SAMPLES
+from mistakes.merges import MERGES
 from mistakes.paths import PATHS
 from mistakes.values import VALUES
 from mistakes.views import VIEWS
 
-MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR
+MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES

@@ -222,8 +222,8 @@ DENSITIES = (
         "power heuristic: the number of light paths is not squared",
         f"{ORACLE}:*Invariance*",
         MIS,
-        "raise(counts.splat)} {}",
-        "counts.splat} {}",
+        "raise(counts.splat), raise(counts.merge)} {}",
+        "counts.splat, raise(counts.merge)} {}",
     ),
     Mistake(
         "counts-of-another-pass",

@@ -51,8 +51,8 @@ PATHS = (
         "surfaces with a delta lobe among others are not connected to",
         PICTURES,
         BDPT,
-        "if (v.bsdf().connectible() && v.edges + 2 <=",
-        "if (v.bsdf().connectible() && v.bsdf().lobes().size() == 1 && v.edges + 2 <=",
+        "if (v.bsdf().connectible() && v.edges + least <=",
+        "if (v.bsdf().connectible() && v.bsdf().lobes().size() == 1 && v.edges + least <=",
     ),
     one(
         "shadow-ray-epsilon",
