@@ -46,7 +46,14 @@ def _other_object(node) -> dict:
     return {"object_matrix": [x for row in matrix for x in row]}
 
 
+def _filter_width(node) -> dict:
+    """What counts where the link of the socket gives no constant."""
+    socket = node.inputs.get("Filter Width")  # since Blender 4.2
+    return {} if socket is None else {"filter_width": socket.default_value}
+
+
 READERS = {
+    "BUMP": _filter_width,
     "VALTORGB": _ramp,
     "CURVE_RGB": _curves,
     "CURVE_VEC": _curves,

@@ -1,37 +1,52 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mesh attributes that shaders read: UV maps, colours, generated coordinates, tangents."""
+"""Mesh attributes that shaders read: UV maps, colours, generated coordinates and the like."""
 
 import numpy as np
 
-# Blender's data types: the field of an element, and its numbers.
+from .tangents import add_tangents
+
+# Blender's data types that Cycles reads: the field of an element, and its numbers.
 FIELDS = {
     "FLOAT": ("value", 1),
     "INT": ("value", 1),
     "INT8": ("value", 1),
     "BOOLEAN": ("value", 1),
     "FLOAT2": ("vector", 2),
-    "INT16_2D": ("value", 2),
-    "INT32_2D": ("value", 2),
     "FLOAT_VECTOR": ("vector", 3),
     "FLOAT_COLOR": ("color", 4),
     "BYTE_COLOR": ("color", 4),
     "QUATERNION": ("value", 4),
 }
-DOMAINS = ("POINT", "CORNER", "FACE")
+TYPES = {"INT": np.int32, "INT8": np.int32, "BOOLEAN": bool}  # the others are float
+# What the core computes from edges: see set_mesh().
+DERIVED = {"pointiness": ("normal",), "random_per_island": ()}
 
 
 def mesh_attributes(mesh, keys, log) -> list[dict]:
     """The attributes with these keys, as SceneBuilder.set_mesh takes them.
 
-    What the mesh does not have is left out, and reads as 0, as in Cycles.
+    What the mesh does not have is left out, and reads as 0, as in Cycles. The mesh may lose its
+    geometry: nothing can be read from it afterwards.
     """
     found = []
-    for key in sorted(keys):
+    keys = set(keys)
+    for key in sorted(keys.union(*(DERIVED[key] for key in keys & DERIVED.keys()))):
         kind, _, name = key.partition(":")
-        attribute = READERS[kind](mesh, name, log)
-        if attribute is not None:
-            found.append({"key": key, **attribute})
+        if kind in DERIVED:
+            found.append({"key": key})
+        elif kind in READERS:
+            attribute = READERS[kind](mesh, name, log)
+            if attribute is not None:
+                found.append({"key": key, **attribute})
+    add_tangents(mesh, {key for key in keys if key.startswith("tangent")}, found, log)
     return found
+
+
+def edges_of(mesh) -> np.ndarray:
+    """Pairs of vertices, int32[E, 2]."""
+    edges = np.empty(2 * len(mesh.edges), dtype=np.int32)
+    mesh.edges.foreach_get("vertices", edges)
+    return edges.reshape(-1, 2)
 
 
 def triangle_faces(mesh, count: int) -> np.ndarray:
@@ -43,32 +58,54 @@ def triangle_faces(mesh, count: int) -> np.ndarray:
 
 def _named(mesh, name: str, log) -> dict | None:
     attribute = mesh.attributes.get(name)
-    if attribute is None:
-        return None
-    if attribute.data_type not in FIELDS or attribute.domain not in DOMAINS:
-        log.warning(
-            f"its attribute '{name}' ({attribute.data_type}, {attribute.domain}) is not supported "
-            "yet, shaders read 0",
-            object=mesh.name,
-        )
+    if attribute is None or attribute.data_type not in FIELDS:
         return None
     field, channels = FIELDS[attribute.data_type]
-    kind = np.int32 if attribute.data_type.startswith("INT") else np.float32
-    kind = bool if attribute.data_type == "BOOLEAN" else kind
+    domain = attribute.domain
+    if domain == "EDGE" and attribute.data_type == "BYTE_COLOR":
+        field = "color_srgb"
+    kind = TYPES.get(attribute.data_type, np.float32)
     values = np.empty(len(attribute.data) * channels, dtype=kind)
     attribute.data.foreach_get(field, values)
-    return {
-        "domain": attribute.domain,
-        "values": values.astype(np.float32).reshape(-1, channels),
-    }
+    values = values.reshape(-1, channels)
+    if domain == "EDGE":
+        if attribute.data_type == "QUATERNION":
+            log.warning(
+                f"its attribute '{name}' (rotations on edges) is not supported, shaders read 0",
+                object=mesh.name,
+            )
+            return None
+        domain, values = "POINT", _of_points(mesh, values, attribute.data_type)
+    return {"domain": domain, "values": values.astype(np.float32)}
+
+
+def _of_points(mesh, values: np.ndarray, kind: str) -> np.ndarray:
+    """From values of edges to those of vertices, as Blender does: the mean, or for booleans any."""
+    ends, count = edges_of(mesh), len(mesh.vertices)
+    sums = np.zeros((count, values.shape[1]))
+    for column in range(values.shape[1]):
+        for end in range(2):
+            weights = values[:, column].astype(float)
+            if kind == "BYTE_COLOR":
+                weights = np.rint(255.0 * weights)
+            sums[:, column] += np.bincount(ends[:, end], weights, minlength=count)
+    if kind == "BOOLEAN":
+        return sums > 0
+    means = sums / np.maximum(np.bincount(ends.ravel(), minlength=count), 1)[:, None]
+    if kind in TYPES:
+        return np.copysign(np.floor(np.abs(means) + 0.5), means)
+    if kind == "BYTE_COLOR":  # the mean of bytes is one
+        means = np.floor(means) / 255.0
+        linear = np.where(means > 0.04045, ((means + 0.055) / 1.055) ** 2.4, means / 12.92)
+        means[:, :3] = linear[:, :3]
+    return means
 
 
 def _uv(mesh, name: str, log) -> dict | None:
-    name = name or _active_uv(mesh)
-    return _named(mesh, name, log) if name in mesh.uv_layers else None
+    return _named(mesh, name or active_uv(mesh), log)
 
 
-def _active_uv(mesh) -> str:
+def active_uv(mesh) -> str:
     """The map with the camera symbol, which renders use."""
     return next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
 
@@ -91,23 +128,10 @@ def _generated(mesh, _name: str, _log) -> dict:
     return {"domain": "POINT", "values": generated.astype(np.float32)}
 
 
-def _tangent(mesh, name: str, log) -> dict | None:
-    """MikkTSpace's tangents, with the handedness as the fourth number."""
-    name = name or _active_uv(mesh)
-    if name not in mesh.uv_layers:
-        return None
-    try:
-        mesh.calc_tangents(uvmap=name)
-    except RuntimeError as error:
-        log.warning(f"its tangents are not known ({error}), normal maps are flat", object=mesh.name)
-        return None
-    count = len(mesh.loops)
-    tangents, signs = np.empty(3 * count, np.float32), np.empty(count, np.float32)
-    mesh.loops.foreach_get("tangent", tangents)
-    mesh.loops.foreach_get("bitangent_sign", signs)
-    mesh.free_tangents()
-    values = np.concatenate([tangents.reshape(-1, 3), signs[:, None]], axis=1)
-    return {"domain": "CORNER", "values": values}
+def _normal(mesh, _name: str, _log) -> dict:
+    values = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertex_normals.foreach_get("vector", values)
+    return {"domain": "POINT", "values": values.reshape(-1, 3)}
 
 
 READERS = {
@@ -115,5 +139,5 @@ READERS = {
     "uv": _uv,
     "color": _color,
     "generated": _generated,
-    "tangent": _tangent,
+    "normal": _normal,
 }

@@ -5,6 +5,7 @@ import numpy as np
 
 from .light import sync_light
 from .mesh import mesh_arrays
+from .properties import OF_INSTANCE, OF_OBJECT, InstanceProperties, object_attributes
 from .visibility import UNSUPPORTED_TYPES, check_hair, check_linking, check_object, surface_seen_by
 
 # Object types that have a surface. Whatever they are, the depsgraph shows their faces as an
@@ -21,6 +22,7 @@ class InstanceSync:
         self._materials = materials
         self._log = log
         self._poll = poll
+        self._properties = InstanceProperties(log)
         self._meshes = {}  # (address of the evaluated mesh, attributes) -> key; None: no faces
         self._kinds = {}  # addresses of an object, its data and who shows it -> arguments
         self._checked = set()
@@ -37,9 +39,8 @@ class InstanceSync:
             if obj.type == "MESH":
                 self._surface(instance)
             elif obj.type == "LIGHT":
-                sync_light(
-                    self._builder, self._next_key("light"), obj, instance.matrix_world, self._log
-                )
+                key = self._next_key("light")
+                sync_light(self._builder, key, obj, instance.matrix_world, depsgraph, self._log)
             elif obj.type in UNSUPPORTED_TYPES:
                 self._log.warning(UNSUPPORTED_TYPES[obj.type], object=obj.name)
 
@@ -50,8 +51,11 @@ class InstanceSync:
         kind = (obj.original.as_pointer(), obj.data.as_pointer(), owner.original.as_pointer())
         if kind not in self._kinds:
             self._kinds[kind] = self._arguments(instance)
-        arguments = self._kinds[kind]
+        arguments, own_keys = self._kinds[kind]
         if arguments is not None:
+            if own_keys:
+                own = self._properties.attributes(instance, own_keys)
+                arguments = arguments | {"attributes": arguments["attributes"] | own}
             self._builder.set_instance(
                 self._next_key("instance"),
                 transform=np.array(instance.matrix_world, dtype=np.float64),
@@ -59,21 +63,27 @@ class InstanceSync:
                 **arguments,
             )
 
-    def _arguments(self, instance) -> dict | None:
-        """Those of set_instance that all instances of a kind share; None: there are no faces."""
+    def _arguments(self, instance) -> tuple[dict | None, list[str]]:
+        """Those of set_instance that all instances of a kind share (None: there are no faces), and
+        the keys of the attributes that each has of its own.
+        """
         obj = instance.object
         materials = self._materials.keys(obj)
-        mesh = self._mesh(obj, self._materials.attributes(materials))
+        keys = self._materials.attributes(materials)
+        of_mesh = frozenset(key for key in keys if not key.startswith(OF_OBJECT + OF_INSTANCE))
+        mesh = self._mesh(obj, of_mesh)
         if mesh is None:
-            return None
-        return {
+            return None, []
+        shared = {
             "name": obj.name,
             "mesh": mesh,
             "materials": materials,
             "color": tuple(obj.color),
             "object_index": obj.pass_index,
+            "attributes": object_attributes(obj, keys),
             **surface_seen_by(instance, self._view_layer),
         }
+        return shared, [key for key in keys if key.startswith(OF_INSTANCE)]
 
     def _mesh(self, obj, attributes: frozenset[str]) -> str | None:
         """The key of the object's geometry, which is sent on first sight.

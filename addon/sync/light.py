@@ -4,11 +4,11 @@
 import bpy
 import numpy as np
 
-from ..nodes import flatten_tree
+from .graph import read_graph
 from .visibility import LIGHT_RAYS, seen_by
 
 
-def sync_light(builder, key: str, obj, matrix, log) -> None:
+def sync_light(builder, key: str, obj, matrix, depsgraph, log) -> None:
     """Sends the light object `obj` at `matrix`; portals, which emit nothing, are left out."""
     light = obj.data
     if getattr(getattr(light, "cycles", None), "is_portal", False):
@@ -26,7 +26,7 @@ def sync_light(builder, key: str, obj, matrix, log) -> None:
         exposure=getattr(light, "exposure", 0.0),
         cast_shadow=light.use_shadow,
         max_bounces=getattr(getattr(light, "cycles", None), "max_bounces", 1024),
-        graph=flatten_tree(light.node_tree) if has_nodes(light) else None,
+        graph=read_graph(light.node_tree, depsgraph) if has_nodes(light) else None,
         **shape(light),
         **seen_by(obj, LIGHT_RAYS),
     )

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Materials: each is sent once, under a key that holds for the whole sync."""
 
-from ..nodes import diffuse_graph, flatten_tree
+from ..nodes import diffuse_graph
+from .graph import read_graph
 from .image import send_images
 from .world import uses_nodes
 
@@ -9,9 +10,10 @@ from .world import uses_nodes
 class MaterialSync:
     """Sends materials on first use."""
 
-    def __init__(self, builder, override, log):
+    def __init__(self, builder, depsgraph, log):
         self._builder = builder
-        self._override = override
+        self._depsgraph = depsgraph
+        self._override = depsgraph.view_layer_eval.material_override
         self._log = log
         self._images = set()  # keys of what has been sent
         self._sent = {}  # key -> keys of the mesh attributes that it reads
@@ -56,7 +58,7 @@ class MaterialSync:
             self._log.warning("volumes are not supported yet", material=material.name)
         if output and output.inputs["Displacement"].is_linked:
             self._log.warning("displacement is not supported yet", material=material.name)
-        return flatten_tree(tree)
+        return read_graph(tree, self._depsgraph)
 
 
 def sample_emission(material) -> bool:

@@ -3,9 +3,10 @@
 
 import ctypes
 
+import bpy
 import numpy as np
 
-from .attributes import mesh_attributes, triangle_faces
+from .attributes import DERIVED, edges_of, mesh_attributes, triangle_faces
 
 
 def mesh_arrays(mesh, slots: int, attributes, log) -> dict | None:
@@ -14,6 +15,9 @@ def mesh_arrays(mesh, slots: int, attributes, log) -> dict | None:
     `slots` is the number of material slots of the object that shows the mesh, `attributes` the
     keys of what its materials read.
     """
+    derived = not DERIVED.keys().isdisjoint(attributes)
+    if derived and bpy.app.version < (5, 1, 0) and mesh.normals_domain == "CORNER":
+        mesh.split_faces()  # as Cycles did, so that islands end at sharp edges
     mesh.calc_loop_triangles()
     triangle_count, corner_count = len(mesh.loop_triangles), len(mesh.loops)
     if triangle_count == 0:
@@ -25,17 +29,16 @@ def mesh_arrays(mesh, slots: int, attributes, log) -> dict | None:
         "vertex_normals": _vertex_normals(mesh),
         "corner_normals": _corner_normals(mesh, corner_count),
         "material_indices": _material_indices(mesh, triangle_count, slots),
+        **({"edges": edges_of(mesh)} if derived else {}),
         **_attributes(mesh, triangle_count, attributes, log),
     }
 
 
 def _attributes(mesh, triangle_count: int, keys, log) -> dict:
+    faces = triangle_faces(mesh, triangle_count)
     found = mesh_attributes(mesh, keys, log)
-    if not found:
-        return {}
-    by_face = any(attribute["domain"] == "FACE" for attribute in found)
-    faces = triangle_faces(mesh, triangle_count) if by_face else None
-    return {"attributes": found, "faces": faces}
+    by_face = any(attribute.get("domain", "FACE") == "FACE" for attribute in found)
+    return {"attributes": found, "faces": faces if by_face else None} if found else {}
 
 
 def triangles(mesh, count: int) -> np.ndarray:

@@ -20,5 +20,5 @@ def sync_scene(builder, depsgraph, log, test_break=lambda: False) -> None:
     sync_camera(builder, depsgraph, log)
     sync_world(builder, depsgraph, log)
     check_scene(depsgraph, log)
-    materials = MaterialSync(builder, depsgraph.view_layer_eval.material_override, log)
+    materials = MaterialSync(builder, depsgraph, log)
     InstanceSync(builder, materials, log, poll).run(depsgraph)

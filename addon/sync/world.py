@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..nodes import flatten_tree
+from .graph import read_graph
 from .image import send_images
 from .visibility import LIGHT_RAYS
 
@@ -19,7 +19,7 @@ def sync_world(builder, depsgraph, log) -> None:
         output = world.node_tree and world.node_tree.get_output_node("CYCLES")
         if output and output.inputs["Volume"].is_linked:
             log.warning("volumes are not supported yet", object=world.name)
-        graph = flatten_tree(world.node_tree)
+        graph = read_graph(world.node_tree, depsgraph)
         send_images(builder, graph, world, log, set())
     else:
         graph = background_graph(world.color)

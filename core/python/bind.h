@@ -14,12 +14,17 @@
 #include "janus/math/vec.h"
 #include "janus/scene/node_graph.h"
 
+namespace janus {
+class SceneBuilder;
+}
+
 namespace janus::python {
 
 namespace py = pybind11;
 
 void bind_errors(py::module_& m);
 void bind_scene(py::module_& m);
+void bind_mesh(py::class_<SceneBuilder>& builder);
 void bind_session(py::module_& m);
 
 // {"nodes": [...], "surface": ...} as the add-on's flattener writes it. `key` is for messages.

@@ -23,10 +23,6 @@ constexpr EnumName<AreaShape> kAreaShapes[] = {{"SQUARE", AreaShape::Square},
                                                {"RECTANGLE", AreaShape::Rectangle},
                                                {"DISK", AreaShape::Disk},
                                                {"ELLIPSE", AreaShape::Ellipse}};
-constexpr EnumName<AttributeDomain> kDomains[] = {{"MESH", AttributeDomain::Mesh},
-                                                  {"POINT", AttributeDomain::Point},
-                                                  {"CORNER", AttributeDomain::Corner},
-                                                  {"FACE", AttributeDomain::Face}};
 constexpr py::ssize_t kMaxImageSide = 1 << 16;
 constexpr EnumName<CameraType> kCameraTypes[] = {{"PERSP", CameraType::Perspective},
                                                  {"ORTHO", CameraType::Orthographic},
@@ -47,28 +43,6 @@ RayMask to_mask(bool camera, bool diffuse, bool glossy, bool transmission, bool 
   return mask;
 }
 
-// {"key", "domain", "values": float[N] or [N, C]}
-AttributeDesc to_attribute(Key key, const py::handle& item) {
-  const auto dict =
-      py::isinstance<py::dict>(item) ? py::reinterpret_borrow<py::dict>(item) : py::dict();
-  if (!dict.contains("key") || !dict.contains("domain") || !dict.contains("values")) {
-    throw SceneError(key, "attributes", "each must have key, domain and values");
-  }
-  AttributeDesc attribute;
-  attribute.key = dict["key"].cast<std::string>();
-  attribute.domain = from_name(kDomains, dict["domain"].cast<std::string>(), "domain");
-  const py::array a = to_array(dict["values"]);
-  const std::string path = "attributes[" + attribute.key + "]";
-  const auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(a);
-  if (!values || a.ndim() < 1 || a.ndim() > 2) {
-    PyErr_Clear();
-    throw SceneError(key, path, "must hold numbers, float[N] or float[N, C]");
-  }
-  attribute.channels = a.ndim() == 2 ? static_cast<int>(a.shape(1)) : 1;
-  attribute.values.assign(values.data(), values.data() + values.size());
-  return attribute;
-}
-
 mat4 to_matrix(Key key, const py::object& value) {
   const auto a = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
   if (!a || a.ndim() != 2 || a.shape(0) != 4 || a.shape(1) != 4) {
@@ -86,36 +60,6 @@ mat4 to_matrix(Key key, const py::object& value) {
 
 // --- Builder
 // --------------------------------------------------------------------------------------
-
-void set_mesh(SceneBuilder& self, Key key, std::string name, const py::object& positions,
-              const py::object& triangles, const py::object& corner_vertices,
-              const py::object& vertex_normals, const py::object& corner_normals,
-              const py::object& material_indices, const py::object& faces,
-              const py::list& attributes) {
-  MeshDesc desc;
-  desc.name = std::move(name);
-  desc.positions = to_vectors(key, "positions", to_array(positions));
-  desc.triangles = to_indices<glm::uvec3>(key, "triangles", to_array(triangles), 3);
-  if (const auto a = optional_array(corner_vertices)) {
-    desc.corner_vertices = to_indices<uint32_t>(key, "corner_vertices", *a, 0);
-  }
-  if (const auto a = optional_array(vertex_normals)) {
-    desc.vertex_normals = to_vectors(key, "vertex_normals", *a);
-  }
-  if (const auto a = optional_array(corner_normals)) {
-    desc.corner_normals = to_vectors(key, "corner_normals", *a);
-  }
-  if (const auto a = optional_array(material_indices)) {
-    desc.material_indices = to_indices<uint32_t>(key, "material_indices", *a, 0);
-  }
-  if (const auto a = optional_array(faces)) {
-    desc.faces = to_indices<uint32_t>(key, "faces", *a, 0);
-  }
-  for (const py::handle item : attributes) {
-    desc.attributes.push_back(to_attribute(key, item));
-  }
-  self.set_mesh(key, std::move(desc));
-}
 
 void set_image(SceneBuilder& self, Key key, std::string name, const py::object& pixels, bool srgb,
                bool associated) {
@@ -296,20 +240,12 @@ void bind_scene(py::module_& m) {
                              "Numbers of meshes, instances, triangles (with instances), materials "
                              "and lights (sources with their own sampling).");
 
-  py::class_<SceneBuilder>(m, "SceneBuilder",
-                           "Collects a scene description. Keys are the caller's; setting a key "
-                           "again replaces the item. Lengths in metres, matrices as in Blender.")
-      .def(py::init<>())
-      .def("set_mesh", &set_mesh, "key"_a, py::kw_only(), "name"_a, "positions"_a, "triangles"_a,
-           "corner_vertices"_a = py::none(), "vertex_normals"_a = py::none(),
-           "corner_normals"_a = py::none(), "material_indices"_a = py::none(),
-           "faces"_a = py::none(), "attributes"_a = py::list(),
-           "positions float[N,3]; triangles int[M,3], indices of corners; corner_vertices int[C], "
-           "vertex of each corner (None: corners are vertices); vertex_normals float[N,3] or "
-           "corner_normals float[C,3] (neither: flat); material_indices int[M], slot per triangle "
-           "(None: slot 0); faces int[M], face of each triangle (None: each is one); attributes: "
-           "dicts of key (as set_material() says it), domain (MESH, POINT, CORNER, FACE) and "
-           "values float[N] or [N, 1 to 4]. Arrays are copied.")
+  py::class_<SceneBuilder> builder(
+      m, "SceneBuilder",
+      "Collects a scene description. Keys are the caller's; setting a key "
+      "again replaces the item. Lengths in metres, matrices as in Blender.");
+  bind_mesh(builder);
+  builder.def(py::init<>())
       .def(
           "set_material",
           [](SceneBuilder& self, Key key, std::string name, const py::dict& graph,
@@ -324,10 +260,10 @@ void bind_scene(py::module_& m) {
           "material_index"_a = 0.0f,
           "A surface, as a flattened node tree: {'nodes': [{'name', 'type', 'inputs', "
           "'properties'}], 'surface': {'link': [node, output]} or None}. Returns the keys of the "
-          "mesh "
-          "attributes that it reads: 'generated', 'color:', 'uv:NAME', 'tangent:NAME' (no name: "
-          "the "
-          "active one), 'attribute:NAME'.")
+          "attributes that it reads. Of a mesh: 'generated', 'normal', 'color:', 'uv:NAME', "
+          "'tangent:NAME', 'tangent_sign:NAME' (no name: the active one), 'attribute:NAME', "
+          "'pointiness', 'random_per_island'. Of an instance: 'object:NAME', 'instancer:NAME', "
+          "'dupli_generated', 'dupli_uv'.")
       .def(
           "set_image", &set_image, "key"_a, py::kw_only(), "name"_a, "pixels"_a, "srgb"_a = false,
           "associated"_a = false,
@@ -339,22 +275,34 @@ void bind_scene(py::module_& m) {
           [](SceneBuilder& self, Key key, std::string name, std::string mesh,
              const py::object& transform, std::vector<std::optional<std::string>> materials,
              bool camera, bool diffuse, bool glossy, bool transmission, bool shadow, bool holdout,
-             const std::array<float, 4>& color, float object_index, float random) {
-            self.set_instance(
-                key, {std::move(name), std::move(mesh), to_matrix(key, transform),
-                      std::move(materials), to_mask(camera, diffuse, glossy, transmission, shadow),
-                      holdout, vec4(color[0], color[1], color[2], color[3]), object_index, random});
+             const std::array<float, 4>& color, float object_index, float random,
+             const std::map<std::string, std::array<float, 4>>& attributes) {
+            InstanceDesc desc{std::move(name),
+                              std::move(mesh),
+                              to_matrix(key, transform),
+                              std::move(materials),
+                              to_mask(camera, diffuse, glossy, transmission, shadow),
+                              holdout,
+                              vec4(color[0], color[1], color[2], color[3]),
+                              object_index,
+                              random,
+                              {}};
+            for (const auto& [name, v] : attributes) {
+              desc.attributes[name] = vec4(v[0], v[1], v[2], v[3]);
+            }
+            self.set_instance(key, std::move(desc));
           },
           "key"_a, py::kw_only(), "name"_a, "mesh"_a, "transform"_a,
           "materials"_a = std::vector<std::optional<std::string>>(), "visible_camera"_a = true,
           "visible_diffuse"_a = true, "visible_glossy"_a = true, "visible_transmission"_a = true,
           "visible_shadow"_a = true, "holdout"_a = false,
           "color"_a = std::array{1.0f, 1.0f, 1.0f, 1.0f}, "object_index"_a = 0.0f,
-          "random"_a = 0.0f,
+          "random"_a = 0.0f, "attributes"_a = std::map<std::string, std::array<float, 4>>(),
           "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot; "
           "visible_*: the rays that meet it; holdout: leaves a hole in the picture where the "
           "camera "
-          "sees it; the rest is what the Object Info node says.")
+          "sees it; attributes: four numbers under each key (see set_material()); the rest is what "
+          "the Object Info node says.")
       .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,
            "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f,
            "soft_falloff"_a = true, "shape"_a = "SQUARE", "size"_a = 0.25f, "size_y"_a = 0.25f,

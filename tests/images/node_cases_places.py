@@ -78,7 +78,7 @@ def vector_cases() -> None:
 
 
 def input_cases() -> None:
-    for name in ("Generated", "Normal", "UV", "Object", "Camera", "Reflection"):
+    for name in ("Generated", "Normal", "UV", "Object", "Camera", "Window", "Reflection"):
         CASES[f"coordinate {name}"] = lambda t, name=name: t.coordinate(name)
     for name in (
         "Position",
@@ -88,7 +88,10 @@ def input_cases() -> None:
         "Incoming",
         "Parametric",
         "Backfacing",
+        "Pointiness",
+        "Random Per Island",
     ):
+        CASES[f"pieces geometry {name}"] = lambda t, name=name: t.out("NewGeometry", output=name)
         CASES[f"geometry {name}"] = lambda t, name=name: t.out("NewGeometry", output=name)
     for name in ("Location", "Color", "Alpha", "Object Index", "Material Index", "Random"):
         CASES[f"object {name}"] = lambda t, name=name: t.out("ObjectInfo", output=name)
@@ -96,10 +99,12 @@ def input_cases() -> None:
         CASES[f"camera {name}"] = lambda t, name=name: t.out("CameraData", output=name)
     for name in ("Spare UV", ""):
         CASES[f"uv map {name}"] = lambda t, name=name: t.out("UVMap", uv_map=name)
-    for name in ("Float", "Int", "Bool", "Vector", "Color", "Byte", "Face", "Corner", "Missing"):
-        for output in range(4):
-            CASES[f"attribute {name} {output}"] = lambda t, name=name, output=output: t.out(
-                "Attribute", output=output, attribute_name=name
+    attribute_cases()
+    for kind, name in (("UV_MAP", ""), ("UV_MAP", "Spare UV"), *(("RADIAL", a) for a in "XYZ")):
+        for mesh in ("", "pieces "):
+            settings = {"uv_map": name} if kind == "UV_MAP" else {"axis": name}
+            CASES[f"{mesh}tangent {kind} {name}"] = lambda t, kind=kind, settings=settings: t.out(
+                "Tangent", direction_type=kind, **settings
             )
     for name in ("Color", "Byte", ""):
         for output in (0, 1):
@@ -118,6 +123,53 @@ def input_cases() -> None:
         import bpy
 
         return t.out("TexCoord", output="Object", object=bpy.data.objects["Other"])
+
+
+def attribute_cases() -> None:
+    def attribute(name, output=0, kind="GEOMETRY", title="attribute"):
+        CASES[f"{title} {kind} {name} {output}"] = lambda t: t.out(
+            "Attribute", output=output, attribute_name=name, attribute_type=kind
+        )
+
+    own = ("Float", "Int", "Bool", "Vector", "Color", "Byte", "Face", "Corner", "Missing", "Edge")
+    own += ("Edge Int", "Edge Bool", "Edge Byte", "Pair", "Int8", "Turn", "Ints", "UVMap")
+    known = ("N", "uv", "generated", "tangent", "tangent_sign", "Spare UV.tangent", "vertex_color")
+    known += ("pointiness", "random_per_island", "position", "undeformed")
+    for name in (*own, *known):
+        for output in range(4):
+            attribute(name, output)
+    ours = ("Number", "Whole", "Yes", "Two", "Four", "Five", "Text", "Both", "Missing", "Maker")
+    paths = ("location", "color", "pass_index", "rotation_euler", "scale[0]", "delta_location.x")
+    paths += ("matrix_world", "lock_location", "data.vertices[1].co", '["Number"]', "name")
+    for name in (*ours, *paths):
+        for output in range(4) if name in ours else (0, 3):
+            attribute(name, output, "OBJECT")
+    for name in ("Number", "Both", "Missing", "Maker", "location"):
+        for output in (0, 2, 3):
+            attribute(name, output, "INSTANCER")
+            attribute(name, output, "INSTANCER", "instancer collection")
+            attribute(name, output, "INSTANCER", "instancer faces")
+            attribute(name, output, "INSTANCER", "instancer nodes")
+    for output in range(4):
+        attribute("Stored", output, "INSTANCER", "instancer nodes")
+    for name in (
+        "Layer",
+        "Scene",
+        "World",
+        "Both",
+        "Missing",
+        "frame_current",
+        "render.fps",
+        "color",
+    ):
+        for output in range(4):
+            attribute(name, output, "VIEW_LAYER")
+    for title in ("instancer collection", "instancer faces", "not instanced"):
+        CASES[f"{title} generated"] = lambda t: t.out(
+            "TexCoord", output="Generated", from_instancer=True
+        )
+        CASES[f"{title} uv"] = lambda t: t.out("TexCoord", output="UV", from_instancer=True)
+        CASES[f"{title} uv map"] = lambda t: t.out("UVMap", from_instancer=True)
 
 
 def picture(name: str, width=5, height=4, alpha=False, floats=False, space=None):
@@ -227,6 +279,28 @@ def texture_cases() -> None:
                 return normal_of(t, node.outputs[0])
 
             CASES[f"normal map {space} {strength}"] = build
+            CASES[f"pieces normal map {space} {strength}"] = build
+
+    def bumps(t, width, distance=0.1):
+        u, v, _ = t.parts()
+        height = t.out("Math", {0: u, 1: 9.0}, operation="MULTIPLY")
+        height = t.out("Math", {0: height}, operation="SINE")
+        height = t.out("Math", {0: height, 1: v}, operation="MULTIPLY")
+        return t.node("Bump", {"Height": height, "Filter Width": width, "Distance": distance})
+
+    for width in (0.01, 0.3, 1.0, 5.0):
+        CASES[f"bump width {width}"] = lambda t, width=width: normal_of(
+            t, bumps(t, width).outputs[0]
+        )
+    CASES["bump width value"] = lambda t: normal_of(t, bumps(t, t.out("Value")).outputs[0])
+    CASES["bump width linked"] = lambda t: normal_of(t, bumps(t, t.parts()[0]).outputs[0])
+
+    @case("bumps of several widths")
+    def _(t):
+        node = bumps(t, 3.0)
+        t.tree.links.new(bumps(t, 0.5).outputs[0], node.inputs["Normal"])
+        return normal_of(t, node.outputs[0])
+
     for invert in (False, True):
         for strength in (1.0, 0.5):
 

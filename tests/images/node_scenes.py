@@ -14,65 +14,22 @@ import os
 import sys
 from pathlib import Path
 
-import numpy as np
-
 ROOT = Path(__file__).resolve().parents[2]
 TILE, COLUMNS = 16, 16  # pixels along a tile; tiles along a sheet
-SUBDIVISIONS = 6
 SCALE, LIFT = 0.1, 10.0
-
-
-def tile_mesh():
-    """A square from -1 to 1, wavy and smooth, with maps and attributes of every kind."""
-    import bpy
-
-    n = SUBDIVISIONS
-    x, y = np.meshgrid(np.linspace(-1, 1, n + 1), np.linspace(-1, 1, n + 1), indexing="ij")
-    z = 0.25 * np.sin(2.0 * x + 0.4) * np.cos(1.7 * y)
-    points = np.stack([x, y, z], axis=-1).reshape(-1, 3)
-    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).reshape(-1)
-    faces = np.stack([corner, corner + n + 1, corner + n + 2, corner + 1], axis=-1)
-    mesh = bpy.data.meshes.new("Tile")
-    mesh.from_pydata(points.tolist(), [], faces.tolist())
-    mesh.shade_smooth()
-    loops = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.loops.foreach_get("vertex_index", loops)
-    flat = 0.5 + 0.5 * points[loops, :2]
-    turned = 0.5 + 0.35 * (flat - 0.5) @ np.array([[0.8, 0.6], [-0.6, 0.8]])
-    mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", flat.astype(np.float32).ravel())
-    mesh.uv_layers.new(name="Spare UV").uv.foreach_set("vector", turned.astype(np.float32).ravel())
-    mesh.uv_layers["UVMap"].active_render = True
-    random = np.random.default_rng(3)
-
-    def attribute(name, kind, domain, field, channels, values=None):
-        data = mesh.attributes.new(name, kind, domain).data
-        if values is None:
-            values = random.uniform(0.0, 1.0, len(data) * channels).astype(np.float32)
-        data.foreach_set(field, values)
-
-    vertices, polygons = len(mesh.vertices), len(mesh.polygons)
-    attribute("Float", "FLOAT", "POINT", "value", 1)
-    attribute("Int", "INT", "POINT", "value", 1, np.arange(vertices, dtype=np.int32) % 5)
-    attribute("Bool", "BOOLEAN", "FACE", "value", 1, np.arange(polygons) % 2 == 0)
-    attribute("Vector", "FLOAT_VECTOR", "POINT", "vector", 3)
-    attribute("Color", "FLOAT_COLOR", "POINT", "color", 4)
-    attribute("Byte", "BYTE_COLOR", "CORNER", "color", 4)
-    attribute("Face", "FLOAT", "FACE", "value", 1)
-    attribute("Corner", "FLOAT_VECTOR", "CORNER", "vector", 3)
-    mesh.materials.append(None)  # the slot that objects fill
-    mesh.color_attributes.render_color_index = mesh.color_attributes.find("Byte")
-    return mesh
 
 
 def build_sheet(names, cases):
     """A scene with a tile for each name, seen from above."""
     import bpy
 
+    from tests.images import node_meshes
     from tests.images.node_cases import Tree
 
     scene = bpy.context.scene
     rows = math.ceil(len(names) / COLUMNS)
-    mesh = tile_mesh()
+    mesh = node_meshes.tile_mesh()
+    pieces = node_meshes.pieces_mesh(mesh)
     other = bpy.data.objects.get("Other")
     for number, name in enumerate(names):
         material = bpy.data.materials.new(name)
@@ -91,8 +48,7 @@ def build_sheet(names, cases):
             operation="MULTIPLY_ADD",
         )
         tree.links.new(lifted, emission.inputs["Color"])
-        obj = bpy.data.objects.new(name, mesh)
-        scene.collection.objects.link(obj)
+        obj = bpy.data.objects.new(name, pieces if name.startswith("pieces") else mesh)
         obj.location = (2.2 * (number % COLUMNS), 2.2 * (number // COLUMNS), 0.0)
         # Turned, moved, and every second one looked at from behind.
         obj.rotation_euler = (0.2, math.pi - 0.15 if number % 2 else -0.15, 0.1)
@@ -100,6 +56,11 @@ def build_sheet(names, cases):
         obj.pass_index = number % 5
         obj.material_slots[0].link = "OBJECT"
         obj.material_slots[0].material = material
+        node_meshes.add_properties(scene, obj, number)
+        if name.startswith("instancer"):
+            node_meshes.instanced(scene, obj, name.split()[1])
+        else:
+            scene.collection.objects.link(obj)
     other.location = (3.0, 1.0, 2.0)
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     scene.collection.objects.link(camera)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "janus/geometry/derived.h"
 #include "janus/util/error.h"
 
 namespace janus {
@@ -35,6 +36,9 @@ void check_attributes(const std::string& key, const MeshDesc& desc, size_t corne
                          std::to_string(desc.triangles.size()) + " triangles");
   }
   for (const AttributeDesc& attribute : desc.attributes) {
+    if (is_derived(attribute)) {
+      continue;
+    }
     const std::string path = "attributes[" + attribute.key + "]";
     if (attribute.channels < 1 || attribute.channels > 4) {
       throw SceneError(key, path, "must have 1 to 4 channels");
@@ -83,7 +87,16 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
   }
 
   check_attributes(key, desc, corners);
+  for (size_t i = 0; i < desc.triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (desc.triangles[i][k] >= corners) {
+        throw SceneError(key, "triangles[" + std::to_string(i) + "]",
+                         "is out of range: the mesh has " + std::to_string(corners) + " corners");
+      }
+    }
+  }
   attributes_ = desc.attributes;
+  derive_attributes(key, desc, attributes_);
   const auto kept_by = [&](AttributeDomain domain) {
     return std::any_of(attributes_.begin(), attributes_.end(),
                        [&](const AttributeDesc& a) { return a.domain == domain; });
@@ -99,10 +112,6 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
     bool finite = true;
     for (int k = 0; k < 3; ++k) {
       const uint32_t corner = desc.triangles[i][k];
-      if (corner >= corners) {
-        throw SceneError(key, "triangles[" + std::to_string(i) + "]",
-                         "is out of range: the mesh has " + std::to_string(corners) + " corners");
-      }
       triangle.v[k] = desc.corner_vertices.empty() ? corner : desc.corner_vertices[corner];
       triangle.normal[k] = desc.vertex_normals.empty() ? corner : triangle.v[k];
       finite = finite && is_finite(desc.positions[triangle.v[k]]);

@@ -5,13 +5,6 @@
 
 namespace janus {
 
-namespace {
-
-// Cycles' bump looks a tenth of a pixel to the side (its Filter Width).
-constexpr float kBumpFilter = 0.1f;
-
-}  // namespace
-
 uint32_t Surfaces::add_program(Program program, float material_index) {
   any_delta_ = any_delta_ || !program.constant() ||
                std::any_of(program.lobes.begin(), program.lobes.end(), is_delta);
@@ -20,16 +13,32 @@ uint32_t Surfaces::add_program(Program program, float material_index) {
   return static_cast<uint32_t>(surfaces_.size() - 1);
 }
 
-uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh) {
+uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
+                        const std::map<std::string, vec4>& own) {
   const Program& program = *surfaces_[surface].program;
   if (program.attributes.empty()) {
     return surface;
   }
-  const auto [entry, fresh] = bound_.try_emplace({surface, &mesh}, 0);
+  std::vector<float> read;
+  for (const std::string& key : program.attributes) {
+    if (const auto found = own.find(key); found != own.end()) {
+      read.insert(read.end(), &found->second.x, &found->second.x + 4);
+    }
+  }
+  const auto [entry, fresh] = bound_.try_emplace({surface, &mesh, std::move(read)}, 0);
   if (fresh) {
     auto slots = std::make_unique<const AttributeDesc*[]>(program.attributes.size());
-    std::transform(program.attributes.begin(), program.attributes.end(), slots.get(),
-                   [&](const std::string& key) { return mesh.attribute(key); });
+    const auto find = [&](const std::string& key) {
+      const auto found = own.find(key);
+      if (found == own.end()) {
+        return mesh.attribute(key);
+      }
+      const float* first = &found->second.x;
+      own_.push_back(std::make_unique<const AttributeDesc>(
+          AttributeDesc{key, AttributeDomain::Mesh, 4, {first, first + 4}}));
+      return own_.back().get();
+    };
+    std::transform(program.attributes.begin(), program.attributes.end(), slots.get(), find);
     entry->second = static_cast<uint32_t>(surfaces_.size());
     surfaces_.push_back({&program, slots.get(), surfaces_[surface].material_index});
     attributes_.push_back(std::move(slots));
@@ -38,21 +47,19 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh) {
 }
 
 void Surfaces::set_objects(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
-                           const mat4& to_camera, const PixelFootprint& footprint) {
+                           const CameraView& camera, const PixelFootprint& footprint) {
   footprint_ = footprint;
   const bool needed = std::any_of(programs_.begin(), programs_.end(),
                                   [](const auto& program) { return !program->constant(); });
   if (!needed) {
     return;
   }
-  const mat4 from_camera = glm::inverse(to_camera);
   for (const Instance& instance : instances) {
     ObjectData data;
     data.to_world = instance.to_world;
     data.to_object = glm::inverse(instance.to_world);
     data.normal_to_world = instance.normal_to_world;
-    data.to_camera = to_camera;
-    data.from_camera = from_camera;
+    data.camera = camera;
     data.location = vec3(instance.to_world[3]);
     data.color = instance.color;
     data.object_index = instance.object_index;
@@ -75,13 +82,12 @@ ShadingPoint Surfaces::point(const SurfaceInteraction& hit, vec3 view) const {
   point.object = &objects_[hit.instance];
   point.attributes = surface.attributes;
   point.material_index = surface.material_index;
-  if (surface.program->shifted) {
+  if (!surface.program->filter_widths.empty()) {
     const mat3 linear(point.object->to_world);
     const auto vertex = [&](int k) { return mesh.positions()[point.triangle.vertices[k]]; };
     point.edge_u = linear * (vertex(1) - vertex(0));
     point.edge_v = linear * (vertex(2) - vertex(0));
-    point.footprint =
-        kBumpFilter * (footprint_.width + footprint_.angle * glm::length(hit.p - footprint_.eye));
+    point.footprint = footprint_.width + footprint_.angle * glm::length(hit.p - footprint_.eye);
   }
   if (surface.program->tangents) {
     point.object_normal = mesh.interpolated_normal(hit.primitive, hit.barycentric);

@@ -5,7 +5,8 @@
 
 #include <map>
 #include <memory>
-#include <utility>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "janus/geometry/interaction.h"
@@ -30,13 +31,13 @@ class Surfaces {
   size_t size() const { return programs_.size(); }
   // Can some surface reflect or refract without blur?
   bool any_delta() const { return any_delta_; }
-  // The number of a program's surface on a mesh, which has attributes for it or not. The mesh must
-  // not move from then on.
-  uint32_t bind(uint32_t program, const Mesh& mesh);
+  // The number of a program's surface on a mesh, which has attributes for it or not, in an instance
+  // with attributes of its `own`. The mesh must not move from then on.
+  uint32_t bind(uint32_t program, const Mesh& mesh, const std::map<std::string, vec4>& own = {});
 
-  // The instances that hits speak of, in their order; `to_camera` looks along +z.
+  // The instances that hits speak of, in their order.
   void set_objects(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
-                   const mat4& to_camera, const PixelFootprint& footprint);
+                   const CameraView& camera, const PixelFootprint& footprint);
 
   // Shades a hit that is seen from the unit direction `view`.
   void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result) const {
@@ -71,7 +72,9 @@ class Surfaces {
   std::vector<std::unique_ptr<const Program>> programs_;
   std::vector<Surface> surfaces_;  // those of add_program(), then those of bind()
   std::vector<std::unique_ptr<const AttributeDesc*[]>> attributes_;
-  std::map<std::pair<uint32_t, const Mesh*>, uint32_t> bound_;
+  // By program, mesh, and what it reads of the instance.
+  std::map<std::tuple<uint32_t, const Mesh*, std::vector<float>>, uint32_t> bound_;
+  std::vector<std::unique_ptr<const AttributeDesc>> own_;  // of instances
   std::vector<ObjectData> objects_;
   std::vector<const Mesh*> meshes_;  // by instance
   PixelFootprint footprint_;

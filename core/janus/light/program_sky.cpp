@@ -29,20 +29,19 @@ int widest_picture(const Program& program) {
 }
 
 // No object, as programs see it.
-ObjectData no_object(const mat4& to_camera) {
+ObjectData no_object(const CameraView& camera) {
   ObjectData object;
-  object.to_camera = to_camera;
-  object.from_camera = glm::inverse(to_camera);
+  object.camera = camera;
   object.color = vec4(0.0f);
   return object;
 }
 
 }  // namespace
 
-ProgramSky::ProgramSky(Program program, const mat4& to_camera, bool sampled,
+ProgramSky::ProgramSky(Program program, const CameraView& camera, bool sampled,
                        const CancelToken& cancel)
     : program_(std::move(program)),
-      surroundings_(no_object(to_camera)),
+      surroundings_(no_object(camera)),
       map_(measure(sampled, cancel)) {}
 
 Rgb ProgramSky::radiance(vec3 direction) const {
@@ -50,7 +49,7 @@ Rgb ProgramSky::radiance(vec3 direction) const {
   point.p = direction;
   point.ng = point.ns = point.view = point.object_normal = -direction;
   point.object = &surroundings_;
-  point.footprint = 1e-3f;
+  point.footprint = 1e-2f;
   ShadingResult result;
   program_.run(point, result);
   return is_finite(result.emission) ? result.emission : Rgb(0.0f);

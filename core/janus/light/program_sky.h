@@ -11,10 +11,9 @@ namespace janus {
 
 class ProgramSky {
  public:
-  // `to_camera`: from the world to a camera that looks along +z. `sampled`: light is looked for in
-  // it, so that its brightness is measured first, which may take a while; else it shines to the
-  // camera alone. Throws Cancelled.
-  ProgramSky(Program program, const mat4& to_camera, bool sampled, const CancelToken& cancel);
+  // `sampled`: light is looked for in it, so that its brightness is measured first, which may take
+  // a while; else it shines to the camera alone. Throws Cancelled.
+  ProgramSky(Program program, const CameraView& camera, bool sampled, const CancelToken& cancel);
 
   // Runs the program, as Cycles does: at the point `direction`, of a sphere that looks inwards.
   Rgb radiance(vec3 direction) const;

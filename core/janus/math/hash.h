@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace janus {
@@ -23,6 +24,23 @@ inline uint64_t mix64(uint64_t x) {
   x *= 0x94d049bb133111ebU;
   x ^= x >> 31;
   return x;
+}
+
+// Jenkins' lookup3 of one word: Cycles' hash of a number.
+inline uint32_t jenkins_hash(uint32_t x) {
+  const auto mix = [](uint32_t& to, uint32_t from, int bits) {
+    to = (to ^ from) - std::rotl(from, bits);
+  };
+  uint32_t a = 0xdeadbeefU + (1U << 2) + 13U, b = a, c = a;
+  a += x;
+  mix(c, b, 14);
+  mix(a, c, 11);
+  mix(b, a, 25);
+  mix(c, b, 16);
+  mix(a, c, 4);
+  mix(b, a, 14);
+  mix(c, b, 24);
+  return c;
 }
 
 inline uint32_t hash_combine(uint32_t seed, uint32_t value) {

@@ -21,9 +21,8 @@ bool is_finite(const mat4& m) {
   return true;
 }
 
-// From the world to the camera, which looks along +z in Cycles; panoramas look along +x, with +z
-// up.
-mat4 to_camera(const CameraDesc& camera) {
+// The camera looks along +z in Cycles; panoramas look along +x, with +z up.
+CameraView view_of(const CameraDesc& camera) {
   mat4 turn(1.0f);
   turn[2][2] = -1.0f;
   if (camera.type == CameraType::Equirectangular) {
@@ -31,7 +30,9 @@ mat4 to_camera(const CameraDesc& camera) {
     turn[0][1] = turn[2][0] = -1.0f;
     turn[1][2] = turn[3][3] = 1.0f;
   }
-  return turn * glm::inverse(camera.transform);
+  const mat4 from_world = turn * glm::inverse(camera.transform);
+  return {camera.type,   from_world, glm::inverse(from_world), camera.left, camera.right,
+          camera.bottom, camera.top};
 }
 
 // One commit: fills a Scene step by step, in the order in which the parts need each other.
@@ -81,7 +82,8 @@ class Commit {
       instance.normal_to_world = glm::transpose(glm::inverse(mat3(desc.transform)));
       for (const auto& material : desc.materials) {
         const uint32_t program = material ? find_program(key, *material) : 0;
-        instance.materials.push_back(scene_.surfaces.bind(program, scene_.meshes[instance.mesh]));
+        instance.materials.push_back(
+            scene_.surfaces.bind(program, scene_.meshes[instance.mesh], desc.attributes));
       }
       if (instance.materials.empty()) {
         instance.materials.push_back(0);
@@ -101,7 +103,7 @@ class Commit {
         camera.pixel_size > 0.0f ? camera.pixel_size : 1e-3f * (camera.top - camera.bottom);
     const bool parallel = camera.type == CameraType::Orthographic;
     scene_.surfaces.set_objects(
-        scene_.meshes, scene_.instances, to_camera(camera),
+        scene_.meshes, scene_.instances, view_of(camera),
         {vec3(camera.transform[3]), parallel ? 0.0f : pixel, parallel ? pixel : 0.0f});
   }
 
@@ -146,8 +148,8 @@ class Commit {
   }
 
   void add_world(const WorldDesc& world, const ImageMap& images, const CameraDesc& camera) {
-    for (auto& light : make_world(world, images, to_camera(camera), surroundings(),
-                                  scene_.diagnostics, cancel_)) {
+    for (auto& light :
+         make_world(world, images, view_of(camera), surroundings(), scene_.diagnostics, cancel_)) {
       add_light(std::move(light));
     }
   }

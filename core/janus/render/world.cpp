@@ -214,6 +214,24 @@ std::vector<Part> parts(const WorldDesc& world, const ImageMap& images, Diagnost
   return parts;
 }
 
+// Rays of an orthographic camera all go one way, and so see one colour.
+void check_window(const WorldDesc& world, const CameraView& camera, Diagnostics& diagnostics) {
+  if (camera.type != CameraType::Orthographic) {
+    return;
+  }
+  for (const Node& node : world.graph->nodes) {
+    for (const auto& [identifier, value] : node.inputs) {
+      const auto* link = std::get_if<NodeLink>(&value);
+      const Node* source =
+          link && link->output == "Window" ? world.graph->find(link->node) : nullptr;
+      if (source && source->type == "TEX_COORD") {
+        warn(diagnostics, world.name, *source,
+             "an orthographic camera sees one place of the window in all of a world");
+      }
+    }
+  }
+}
+
 bool scatters(const Program& program) {
   const auto scatters = [](const Closure& c) { return c.decl->traits.lobes > 0; };
   return !program.lobes.empty() || std::ranges::any_of(program.closures, scatters);
@@ -222,7 +240,7 @@ bool scatters(const Program& program) {
 }  // namespace
 
 std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const ImageMap& images,
-                                               const mat4& to_camera, const Sphere& scene,
+                                               const CameraView& camera, const Sphere& scene,
                                                Diagnostics& diagnostics,
                                                const CancelToken& cancel) {
   std::vector<std::unique_ptr<Light>> lights;
@@ -234,6 +252,7 @@ std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const Ima
   if (!world.graph) {
     return lights;
   }
+  check_window(world, camera, diagnostics);
   std::vector<Part> all = parts(world, images, diagnostics);
   if (std::ranges::any_of(all, [](const Part& part) { return scatters(part.program); })) {
     diagnostics.push_back(
@@ -246,7 +265,7 @@ std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const Ima
       }
     } else if (program.varying_emission) {
       const bool sampled = (world.visibility & seen_by & kLabels) != 0;
-      add(make_environment_light(ProgramSky(std::move(program), to_camera, sampled, cancel), scene),
+      add(make_environment_light(ProgramSky(std::move(program), camera, sampled, cancel), scene),
           seen_by);
     } else if (!is_black(program.emission)) {
       add(make_environment_light(program.emission, scene), seen_by);

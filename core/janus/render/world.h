@@ -13,10 +13,10 @@
 namespace janus {
 
 // The lights that a world is: none where it is black, one for each answer where its tree asks by
-// what rays it is seen (Light Path), each visible to those alone; else one. `to_camera`: from the
-// world to a camera that looks along +z. What cannot be rendered as asked becomes a Diagnostic.
+// what rays it is seen (Light Path), each visible to those alone; else one. What cannot be rendered
+// as asked becomes a Diagnostic.
 std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const ImageMap& images,
-                                               const mat4& to_camera, const Sphere& scene,
+                                               const CameraView& camera, const Sphere& scene,
                                                Diagnostics& diagnostics, const CancelToken& cancel);
 
 }  // namespace janus

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,7 +25,7 @@ struct AttributeDesc {
   std::string key;
   AttributeDomain domain = AttributeDomain::Point;
   int channels = 3;           // 1 to 4
-  std::vector<float> values;  // interleaved
+  std::vector<float> values;  // interleaved; empty: to be computed (see geometry/derived.h)
 };
 
 struct MeshDesc {
@@ -37,6 +38,7 @@ struct MeshDesc {
   std::vector<uint32_t> material_indices;  // per triangle, slot of the instance; empty: slot 0
   std::vector<uint32_t> faces;             // per triangle, its face; empty: each is a face
   std::vector<AttributeDesc> attributes;
+  std::vector<glm::uvec2> edges;  // pairs of positions; where an attribute is to be computed
 };
 
 struct InstanceDesc {
@@ -50,6 +52,8 @@ struct InstanceDesc {
   vec4 color = vec4(1.0f);
   float object_index = 0.0f;  // the pass index
   float random = 0.0f;        // a number of the instance's own, in [0, 1]
+  // What programs ask of it, by their keys (see shading/node_emitter.h).
+  std::map<std::string, vec4> attributes;
 };
 
 struct MaterialDesc {

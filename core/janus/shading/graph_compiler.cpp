@@ -185,7 +185,21 @@ bool GraphCompiler::linked(const Node& node, std::string_view output) const {
   return false;
 }
 
-std::vector<GraphCompiler::NodeAt> GraphCompiler::needs(const Node& node, uint16_t at) const {
+std::optional<uint16_t> GraphCompiler::shifted_points(float width) {
+  std::vector<float>& widths = program_.filter_widths;
+  const auto found = std::find(widths.begin(), widths.end(), width);
+  const auto index = static_cast<uint16_t>(found - widths.begin());
+  if (found == widths.end()) {
+    if (widths.size() == kMaxFilterWidths) {
+      return std::nullopt;
+    }
+    widths.push_back(width);
+  }
+  return static_cast<uint16_t>(1 + 2 * index);
+}
+
+// Where the points lie depends on an input, so that a node may ask for more when that is known.
+std::vector<GraphCompiler::NodeAt> GraphCompiler::needs(const Node& node, uint16_t at) {
   std::vector<NodeAt> result;
   const NodeDecl* decl = find_node_type(node.type);
   if (!decl) {
@@ -200,9 +214,22 @@ std::vector<GraphCompiler::NodeAt> GraphCompiler::needs(const Node& node, uint16
       continue;
     }
     result.emplace_back(source->second, at);
-    if (socket.shifted && at == 0) {
-      result.emplace_back(source->second, 1);
-      result.emplace_back(source->second, 2);
+  }
+  const auto known = [&](const NodeAt& need) { return outputs_.contains(need); };
+  if (at != 0 || !std::all_of(result.begin(), result.end(), known)) {
+    return result;
+  }
+  for (const SocketDecl& socket : decl->inputs) {
+    const NodeReader reader(node, *decl, material_, diagnostics_);
+    const NodeLink* link = socket.shifted ? reader.link(socket.identifier) : nullptr;
+    const auto source = link ? nodes_.find(link->node) : nodes_.end();
+    if (source == nodes_.end()) {
+      continue;
+    }
+    NodeEmitter emitter(*this, reader, at);
+    if (const auto first = emitter.shifted_points()) {
+      result.emplace_back(source->second, *first);
+      result.emplace_back(source->second, *first + 1);
     }
   }
   return result;
@@ -218,23 +245,22 @@ void GraphCompiler::require(const Node& first, uint16_t at) {
       stack.pop_back();
       continue;
     }
-    if (open.insert(top).second) {
-      bool waits = false;
-      for (const NodeAt& need : needs(*top.first, top.second)) {
-        if (outputs_.contains(need)) {
-          continue;
-        }
-        // Blender refuses cycles; a description written by hand may hold one.
-        if (open.contains(need)) {
-          warn(diagnostics_, material_, *need.first, "the tree has a cycle here; it is cut");
-          continue;
-        }
-        stack.push_back(need);
-        waits = true;
-      }
-      if (waits) {
+    open.insert(top);
+    bool waits = false;
+    for (const NodeAt& need : needs(*top.first, top.second)) {
+      if (outputs_.contains(need)) {
         continue;
       }
+      // Blender refuses cycles; a description written by hand may hold one.
+      if (open.contains(need)) {
+        warn(diagnostics_, material_, *need.first, "the tree has a cycle here; it is cut");
+        continue;
+      }
+      stack.push_back(need);
+      waits = true;
+    }
+    if (waits) {
+      continue;
     }
     compile_node(*top.first, top.second);
     open.erase(top);

@@ -31,6 +31,9 @@ class GraphCompiler {
   Value input(const NodeReader& reader, std::string_view identifier, uint16_t at);
   void output(const Node& node, uint16_t at, std::string_view identifier, Value value);
   bool linked(const Node& node, std::string_view output) const;
+  // The number of the first of the two points that lie `width` pixels to the side of the point;
+  // nullopt: there are too many already.
+  std::optional<uint16_t> shifted_points(float width);
   std::optional<RayType> world_ray() const { return world_ray_; }
 
   // What instructions refer to by `data`.
@@ -74,7 +77,7 @@ class GraphCompiler {
   vec3 fold(const Operation& operation, const std::vector<Value>& operands, uint32_t data) const;
   Value implicit(const SocketDecl& socket, uint16_t at);
   void compile_node(const Node& node, uint16_t at);
-  std::vector<NodeAt> needs(const Node& node, uint16_t at) const;
+  std::vector<NodeAt> needs(const Node& node, uint16_t at);
 
   void add_constant(const NodeReader& reader, const ClosureStep& step);
   void say_if_full(const NodeReader& reader) const;

@@ -179,7 +179,6 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
     program_.instructions.push_back({step.operation.kernel, first, step.data,
                                      static_cast<uint16_t>(place[step.result.index]), step.at});
     program_.dependence = std::max(program_.dependence, step.operation.dependence);
-    program_.shifted |= step.at != 0;
   }
   if (top > kMaxRegisters) {
     diagnostics_.push_back({Severity::Warning, "", material_, "",

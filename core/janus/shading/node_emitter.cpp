@@ -9,6 +9,20 @@ Value NodeEmitter::input(std::string_view identifier, int at) {
   return compiler_.input(reader_, identifier, at == 0 ? at_ : static_cast<uint16_t>(at));
 }
 
+// As in Cycles, one that varies does not count; then it is what the socket said without its link.
+float NodeEmitter::filter_width() {
+  float width = 0.1f;
+  if (!is_constant(input("Filter Width"), &width)) {
+    const float kept = number("filter_width");
+    width = kept > 0.0f ? kept : 0.1f;
+  }
+  return width;
+}
+
+std::optional<uint16_t> NodeEmitter::shifted_points() {
+  return compiler_.shifted_points(filter_width());
+}
+
 bool NodeEmitter::is_constant(Value value, float* x) const {
   const vec3* found = compiler_.as_constant(value);
   if (found && x) {
@@ -34,9 +48,7 @@ uint32_t NodeEmitter::table(std::vector<float> values) {
 }
 uint32_t NodeEmitter::texture(Texture texture) { return compiler_.texture(std::move(texture)); }
 
-const ImageDesc* NodeEmitter::image(std::string_view name) const {
-  return compiler_.image(property(name));
-}
+const ImageDesc* NodeEmitter::image(const std::string& key) const { return compiler_.image(key); }
 
 void NodeEmitter::output(std::string_view identifier, Value value) {
   compiler_.output(reader_.node(), at_, identifier, value);

@@ -2,8 +2,11 @@
 //
 // What the emit function of a node sees of the compiler.
 //
-// Attributes are asked for by key: "uv:NAME" (a UV map; without a name, the active one),
-// "attribute:NAME", "color:" (the active colours), "generated", "tangent:NAME" (of a UV map).
+// Attributes are asked for by key. Of a mesh: "uv:NAME" (a UV map; without a name, the active one),
+// "attribute:NAME", "color:" (the active colours), "generated", "normal" (of the vertices),
+// "tangent:NAME" (of a UV map; its handedness is the fourth channel), "tangent_sign:NAME" (that
+// alone), "pointiness", "random_per_island". Of an instance: "object:NAME", "instancer:NAME"
+// (properties), "dupli_generated", "dupli_uv" (of what it was made from).
 #pragma once
 
 #include <initializer_list>
@@ -32,6 +35,12 @@ class NodeEmitter {
 
   // The value of an input, of its declared type. `at`: for a shifted input, which point.
   Value input(std::string_view identifier, int at = 0);
+  // Of a node with shifted inputs: how far its points are, in pixels, and the number of the first
+  // of the two; nullopt: too many nodes ask for others.
+  float filter_width();
+  std::optional<uint16_t> shifted_points();
+  // Is the node itself looked at from a shifted point?
+  bool shifted() const { return at_ != 0; }
   bool linked(std::string_view identifier) const { return reader_.link(identifier) != nullptr; }
   // In the tree of a world: the type of the rays that look at it.
   std::optional<RayType> world_ray() const;
@@ -54,8 +63,7 @@ class NodeEmitter {
   uint32_t attribute(const std::string& key);
   uint32_t table(std::vector<float> values);
   uint32_t texture(Texture texture);
-  // The picture that the property `name` speaks of; nullptr: there is none.
-  const ImageDesc* image(std::string_view name) const;
+  const ImageDesc* image(const std::string& key) const;  // nullptr: there is none
 
   void output(std::string_view identifier, Value value);
   // Does some input take this output?

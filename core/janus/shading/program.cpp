@@ -25,8 +25,14 @@ void Program::run(const ShadingPoint& point, ShadingResult& result) const {
   }
   float r[kMaxRegisters];
   std::copy(constants.begin(), constants.end(), r);
-  if (shifted) {
-    const ShadingPoint points[3] = {point, point.shifted(0), point.shifted(1)};
+  if (!filter_widths.empty()) {
+    ShadingPoint points[1 + 2 * kMaxFilterWidths];
+    ShadingPoint* next = points;
+    *next++ = point;
+    for (const float width : filter_widths) {
+      *next++ = point.shifted(0, width);
+      *next++ = point.shifted(1, width);
+    }
     execute({r, points, *this});
   } else {
     execute({r, &point, *this});
@@ -58,7 +64,7 @@ bool Program::emits_like(const Program& other) const {
   return emission == other.emission && constants == other.constants && operands == other.operands &&
          instructions == other.instructions && closures == other.closures &&
          tables == other.tables && attributes == other.attributes &&
-         std::ranges::equal(textures, other.textures, same);
+         filter_widths == other.filter_widths && std::ranges::equal(textures, other.textures, same);
 }
 
 void lobes_for_view(const Reshading& reshading, vec3 view, Bsdf& lobes) {

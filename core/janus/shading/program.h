@@ -30,11 +30,13 @@ class Program;
 struct Instruction;
 
 inline constexpr int kMaxRegisters = 2048;
+// Of a program's Bump nodes: each asks for two more points.
+inline constexpr int kMaxFilterWidths = 8;
 
 // The state of a run. Registers hold one float; a vector or colour takes three in a row.
 struct RunState {
   float* registers;
-  const ShadingPoint* points;  // the point, and for bump two more beside it
+  const ShadingPoint* points;  // the point, and for each width of bump two more beside it
   const Program& program;
 };
 using Kernel = void (*)(RunState&, const Instruction&);
@@ -77,8 +79,8 @@ class Program {
   std::vector<std::string> attributes;  // keys, by slot
   uint16_t registers = 0;
   bool varying_emission = false, varying_transparency = false, varying_holdout = false;
-  bool shifted = false;   // some instruction reads the points beside the point
-  bool tangents = false;  // some attribute is a tangent
+  std::vector<float> filter_widths;  // pixels to the points beside the point that bump reads
+  bool tangents = false;             // some attribute is a tangent
   Dependence dependence = Dependence::None;
   bool transmits = false;  // some closure scatters to the other side, or may
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/shading/shading_point.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace janus {
 
 namespace {
@@ -19,6 +22,19 @@ vec4 element(const AttributeDesc& attribute, uint32_t index) {
 
 }  // namespace
 
+vec3 CameraView::window(vec3 p, bool direction) const {
+  const vec3 at = direction ? mat3(from_world) * p : vec3(from_world * vec4(p, 1.0f));
+  vec2 place(at);
+  if (type == CameraType::Perspective) {
+    place = at.z != 0.0f ? place / at.z : vec2(0.0f);
+  } else if (type == CameraType::Equirectangular) {
+    const float length = glm::length(at);
+    const float height = length > 0.0f ? std::clamp(at.z / length, -1.0f, 1.0f) : 0.0f;
+    place = vec2(std::atan2(-at.y, at.x), std::asin(height));
+  }
+  return {(place.x - left) / (right - left), (place.y - bottom) / (top - bottom), 0.0f};
+}
+
 vec3 ShadingPoint::step(int axis) const {
   const vec3 a = ng.x != ng.y || ng.x != ng.z ? vec3(ng.z - ng.y, ng.x - ng.z, ng.y - ng.x)
                                               : vec3(ng.z - ng.y, ng.x + ng.z, -ng.y - ng.x);
@@ -26,9 +42,9 @@ vec3 ShadingPoint::step(int axis) const {
   return footprint * (axis == 0 ? tangent : cross(facing(ng), tangent));
 }
 
-ShadingPoint ShadingPoint::shifted(int axis) const {
+ShadingPoint ShadingPoint::shifted(int axis, float width) const {
   ShadingPoint result = *this;
-  const vec3 d = step(axis);
+  const vec3 d = width * step(axis);
   result.p += d;
   // The barycentric coordinates of d: least squares in the basis of the edges.
   const float uu = dot(edge_u, edge_u), uv = dot(edge_u, edge_v), vv = dot(edge_v, edge_v);
@@ -56,6 +72,12 @@ vec4 ShadingPoint::attribute(uint32_t slot) const {
   const float u = barycentric.x, v = barycentric.y;
   return (1.0f - u - v) * element(*found, at[0]) + u * element(*found, at[1]) +
          v * element(*found, at[2]);
+}
+
+float ShadingPoint::attribute_factor(uint32_t slot) const {
+  const vec4 value = attribute(slot);
+  const bool pair = attributes && attributes[slot] && attributes[slot]->channels == 2;
+  return pair ? value.x : average(vec3(value));
 }
 
 }  // namespace janus

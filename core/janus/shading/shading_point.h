@@ -12,11 +12,22 @@
 
 namespace janus {
 
+// How the camera looks at the world.
+struct CameraView {
+  CameraType type = CameraType::Perspective;
+  mat4 from_world = mat4(1.0f), to_world = mat4(1.0f);  // looks along +z; panoramas along +x
+  float left = -0.5f, right = 0.5f, bottom = -0.5f, top = 0.5f;  // CameraDesc's
+
+  // Where a point of the world, or for `direction` one as far as infinity, stands in the frame:
+  // (0, 0) to (1, 1) from its lower left corner.
+  vec3 window(vec3 p, bool direction) const;
+};
+
 // Of an instance.
 struct ObjectData {
   mat4 to_world = mat4(1.0f), to_object = mat4(1.0f);
-  mat3 normal_to_world = mat3(1.0f);                      // inverse transpose
-  mat4 to_camera = mat4(1.0f), from_camera = mat4(1.0f);  // world; looks along +z
+  mat3 normal_to_world = mat3(1.0f);  // inverse transpose
+  CameraView camera;
   vec3 location = vec3(0.0f);
   vec4 color = vec4(1.0f);
   float object_index = 0.0f, random = 0.0f;
@@ -38,8 +49,7 @@ struct ShadingPoint {
   // By the program's slot; null where the mesh has none of that name.
   const AttributeDesc* const* attributes;
   float material_index;
-  // Edges of the triangle in the world, and how far the points lie that bump compares with: see
-  // shifted().
+  // Edges of the triangle in the world, and the size of a pixel there: see shifted().
   vec3 edge_u, edge_v;
   float footprint;  // metres
   // The interpolated normal in object space, as long as it comes out: what tangents go with.
@@ -48,14 +58,16 @@ struct ShadingPoint {
   bool backfacing() const { return dot(view, ng) < 0.0f; }
   // Cycles' normals look at the viewer.
   vec3 facing(vec3 n) const { return backfacing() ? -n : n; }
-  // Where bump looks to the side, a footprint away: the tangents of Cycles' ray differentials, so
-  // that heights are compared at the same places. axis: 0 or 1.
+  // A pixel to the side: the tangents of Cycles' ray differentials, so that bump compares heights
+  // at the same places. axis: 0 or 1.
   vec3 step(int axis) const;
-  // The point there, on the plane of the triangle; attributes go on linearly.
-  ShadingPoint shifted(int axis) const;
+  // The point `width` steps away, on the plane of the triangle; attributes go on linearly.
+  ShadingPoint shifted(int axis, float width) const;
   // A value of the attribute in `slot`. Missing channels are 0, a missing alpha 1; so is all of it
   // where the mesh has no such attribute.
   vec4 attribute(uint32_t slot) const;
+  // The same as a number, as Cycles makes it: the first of two, the mean of three or four.
+  float attribute_factor(uint32_t slot) const;
 };
 
 }  // namespace janus

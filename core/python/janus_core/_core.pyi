@@ -88,6 +88,7 @@ class SceneBuilder:
         material_indices: npt.ArrayLike | None = None,
         faces: npt.ArrayLike | None = None,
         attributes: Sequence[Mapping[str, Any]] = ...,
+        edges: npt.ArrayLike | None = None,
     ) -> None:
         """A mesh in object space.
 
@@ -97,7 +98,8 @@ class SceneBuilder:
         material_indices: int[M], the material slot of each triangle (None: slot 0).
         faces: int[M], the face of each triangle (None: each is one). attributes: for shaders, each
         with "key" (see set_material()), "domain" (MESH, POINT, CORNER or FACE) and "values",
-        float[N] or float[N, 1 to 4].
+        float[N] or float[N, 1 to 4]; "pointiness" (which needs "normal") and "random_per_island"
+        may come without values, and are computed from edges: int[E, 2], pairs of positions.
         """
     def set_material(
         self,
@@ -115,8 +117,10 @@ class SceneBuilder:
         number, 3 or 4 numbers, a string, or a link. Types and identifiers are Blender's; see
         node_types(). sample_emission False: what it emits is found by chance only.
 
-        Returns the keys of the mesh attributes that it reads: "generated", "color:", "uv:NAME",
-        "tangent:NAME" (without a name the active one), "attribute:NAME".
+        Returns the keys of the attributes that it reads. Of a mesh: "generated", "normal",
+        "color:", "uv:NAME", "tangent:NAME", "tangent_sign:NAME" (without a name the active one),
+        "attribute:NAME", "pointiness", "random_per_island". Of an instance: "object:NAME",
+        "instancer:NAME", "dupli_generated", "dupli_uv".
         """
     def set_image(
         self,
@@ -127,7 +131,8 @@ class SceneBuilder:
         srgb: bool = False,
         associated: bool = False,
     ) -> None:
-        """A picture for texture nodes, which name it by their property "image": this key.
+        """A picture for texture nodes, which name it by their property "image": this key; or, with
+        a property "tiles" (numbers of UDIM tiles), by this key, ":" and the tile.
 
         pixels: float[H, W, 3 or 4], the bottom row first, scene-linear Rec.709; with srgb encoded
         as sRGB, and decoded after interpolation, as in Cycles. associated: colours have been
@@ -150,12 +155,14 @@ class SceneBuilder:
         color: Sequence[float] = (1.0, 1.0, 1.0, 1.0),
         object_index: float = 0.0,
         random: float = 0.0,
+        attributes: Mapping[str, Sequence[float]] = ...,
     ) -> None:
         """Places the mesh with the key `mesh` in the world.
 
         transform: float[4, 4], object to world. materials: a key for each slot, or None for the
         default surface. visible_*: the rays that meet it, as in Blender. holdout: it
-        leaves a hole where the camera sees it.
+        leaves a hole where the camera sees it. attributes: four numbers under each key that
+        set_material() gives of an instance.
         """
     def set_light(
         self,

@@ -24,7 +24,7 @@ from . import Error, IoError, RenderSettings, Scene, SceneBuilder, __version__
 __all__ = ["CapturingBuilder", "load"]
 
 FORMAT = "janus scene"
-VERSION = 4  # raised when an older reader could not understand a newer file
+VERSION = 5  # raised when an older reader could not understand a newer file
 
 _KINDS = (
     "mesh",
@@ -42,6 +42,7 @@ _ARRAYS = {
         "corner_normals",
         "material_indices",
         "faces",
+        "edges",
     ),
     "image": ("pixels",),
 }
@@ -143,12 +144,12 @@ class CapturingBuilder:
                 rest = {name: value for name, value in item.items() if name not in members}
                 members = {name: member for name, member in members.items() if member in arrays}
                 if "attributes" in rest:
-                    rest["attributes"] = [
-                        attribute | {"values": f"{kind}/{number}/attributes/{i}"}
-                        for i, attribute in enumerate(rest["attributes"])
-                    ]
-                    for attribute, own in zip(rest["attributes"], item["attributes"], strict=True):
-                        arrays[attribute["values"]] = np.asarray(own["values"])
+                    rest["attributes"] = [dict(attribute) for attribute in rest["attributes"]]
+                    for i, attribute in enumerate(rest["attributes"]):
+                        if "values" in attribute:
+                            member = f"{kind}/{number}/attributes/{i}"
+                            arrays[member] = np.asarray(attribute["values"])
+                            attribute["values"] = member
                 description[kind][key] = {**rest, "arrays": members}
         for kind in ("material", "light"):
             description[kind] = self._items[kind]
@@ -214,7 +215,8 @@ def _build(
             arrays = {name: _array(archive, member) for name, member in item.pop("arrays").items()}
             optional = {name: None for name in _ARRAYS[kind][2:]}
             for attribute in item.get("attributes", ()):
-                attribute["values"] = _array(archive, attribute["values"])
+                if "values" in attribute:
+                    attribute["values"] = _array(archive, attribute["values"])
             getattr(builder, f"set_{kind}")(key, **optional | item | arrays)
     for kind in ("material", "light"):
         for key, item in description[kind].items():

@@ -87,11 +87,12 @@ constexpr SocketDecl kBumpInputs[] = {{"Strength", Float, 1.0f},
                                       {"Normal", Vector, Implicit::Normal}};
 
 // Perturbed by the slope of a height (M. Mikkelsen, Bump Mapping Unparametrized Surfaces on the
-// GPU): the height here and a footprint away along two tangents. `data`: 1, the height is a depth.
-vec3 bump(const Context& c, float strength, float distance, float height, float height_x,
-          float height_y, vec3 normal) {
+// GPU): the height here and `width` pixels away along two tangents. `data`: 1, the height is a
+// depth.
+vec3 bump(const Context& c, float strength, float distance, float width, float height,
+          float height_x, float height_y, vec3 normal) {
   const vec3 n = c.point.facing(normal);  // a hill is a hill from behind too
-  const vec3 dx = c.point.step(0), dy = c.point.step(1);
+  const vec3 dx = width * c.point.step(0), dy = width * c.point.step(1);
   const vec3 rx = cross(dy, n), ry = cross(n, dx);
   const float det = dot(dx, rx);
   const vec3 slope = (height_x - height) * rx + (height_y - height) * ry;
@@ -109,14 +110,23 @@ void emit_bump(NodeEmitter& e) {
     e.output("Normal", n);
     return;
   }
-  // The step is a tenth of a pixel for all nodes of a shader.
-  if (float width = 0.1f; !e.is_constant(e.input("Filter Width"), &width) || width != 0.1f) {
-    e.warn("a filter width other than 0.1 is not supported yet; 0.1 is used");
+  if (e.shifted()) {
+    e.warn("a bump in the height of another bump is left out there");
+    e.output("Normal", n);
+    return;
   }
-  e.output("Normal", e.emit(by_side<&bump>,
-                            {e.input("Strength"), e.input("Distance"), e.input("Height"),
-                             e.input("Height", 1), e.input("Height", 2), n},
-                            e.flag("invert") ? 1 : 0));
+  const auto at = e.shifted_points();
+  if (!at) {
+    e.warn("more than " + std::to_string(kMaxFilterWidths) +
+           " filter widths in a shader; this bump is left out");
+    e.output("Normal", n);
+    return;
+  }
+  e.output("Normal",
+           e.emit(by_side<&bump>,
+                  {e.input("Strength"), e.input("Distance"), e.constant(e.filter_width()),
+                   e.input("Height"), e.input("Height", *at), e.input("Height", *at + 1), n},
+                  e.flag("invert") ? 1 : 0));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ std::span<const NodeDecl> curve_nodes();
 std::span<const NodeDecl> blackbody_nodes();
 std::span<const NodeDecl> vector_nodes();
 std::span<const NodeDecl> input_nodes();
+std::span<const NodeDecl> geometry_nodes();
 std::span<const NodeDecl> texture_nodes();
 std::span<const NodeDecl> normal_nodes();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a shader is told about the point: coordinates, attributes, the object, the view.
+// What a shader is told about the point: coordinates, the object, the view.
 #include <algorithm>
 #include <cmath>
 
@@ -17,13 +17,6 @@ namespace {
 
 using enum SocketType;
 
-constexpr Operation kTrueNormal =
-    by_side<[](const Context& c) { return c.point.facing(c.point.ng); }>;
-constexpr Operation kAttributeAlpha =
-    at_point<[](const Context& c) { return c.point.attribute(c.data).w; }>;
-constexpr Operation kAttributeFactor =
-    at_point<[](const Context& c) { return average(vec3(c.point.attribute(c.data))); }>;
-
 // --- Texture Coordinate --------------------------------------------------------------------------
 
 constexpr std::string_view kCoordinates[] = {"Generated", "Normal", "UV",        "Object",
@@ -38,11 +31,15 @@ constexpr Operation kObjectPoint = at_point<[](const Context& c) {
   return vec3(c.point.object->to_object * vec4(c.point.p, 1.0f));
 }>;
 constexpr Operation kCameraPoint = at_point<[](const Context& c) {
-  return vec3(c.point.object->to_camera * vec4(c.point.p, 1.0f));
+  return vec3(c.point.object->camera.from_world * vec4(c.point.p, 1.0f));
 }>;
 // Worlds are as far from the camera as from anything.
 constexpr Operation kCameraDirection =
-    at_point<[](const Context& c) { return mat3(c.point.object->to_camera) * c.point.p; }>;
+    at_point<[](const Context& c) { return mat3(c.point.object->camera.from_world) * c.point.p; }>;
+// `data`: 1, for a world.
+constexpr Operation kWindow = at_point<[](const Context& c) {
+  return c.point.object->camera.window(c.point.p, c.data != 0);
+}>;
 // By the rows of a matrix in a table.
 constexpr Operation kOtherObjectPoint = at_point<[](const Context& c) {
   const std::vector<float>& m = c.program.tables[c.data];
@@ -59,77 +56,18 @@ constexpr Operation kReflection = by_view<[](const Context& c) {
 }>;
 
 void emit_coordinates(NodeEmitter& e) {
-  const bool world = e.world_ray().has_value();
+  const bool world = e.world_ray().has_value(), dupli = e.flag("from_instancer");
   e.output("Generated",
-           world ? e.emit(kPosition, {}) : e.emit(kAttribute, {}, e.attribute("generated")));
+           world ? e.emit(kPosition, {})
+                 : e.emit(kAttribute, {}, e.attribute(dupli ? "dupli_generated" : "generated")));
   e.output("Normal", e.emit(kObjectNormal, {}));
-  e.output("UV", e.emit(kAttribute, {}, e.attribute("uv:")));
+  e.output("UV", e.emit(kAttribute, {}, e.attribute(dupli ? "dupli_uv" : "uv:")));
   const std::vector<float>* other = e.list("object_matrix");
   e.output("Object", other && other->size() == 16 ? e.emit(kOtherObjectPoint, {}, e.table(*other))
                                                   : e.emit(kObjectPoint, {}));
   e.output("Camera", e.emit(world ? kCameraDirection : kCameraPoint, {}));
+  e.output("Window", e.emit(kWindow, {}, world ? 1 : 0));
   e.output("Reflection", e.emit(kReflection, {}));
-}
-
-// --- Attributes ----------------------------------------------------------------------------------
-
-constexpr std::string_view kUv[] = {"UV"}, kColorAlpha[] = {"Color", "Alpha"},
-                           kAttributeOutputs[] = {"Color", "Vector", "Fac", "Alpha"};
-
-void emit_uv_map(NodeEmitter& e) {
-  e.output("UV", e.emit(kAttribute, {}, e.attribute("uv:" + e.property("uv_map"))));
-}
-
-void emit_attribute(NodeEmitter& e) {
-  const std::string kind = e.property("attribute_type", "GEOMETRY");
-  if (kind != "GEOMETRY") {
-    e.warn("attributes of type " + kind + " are not supported yet; 0 is used");
-  }
-  const uint32_t slot = e.attribute("attribute:" + e.property("attribute_name"));
-  const Value value = e.emit(kAttribute, {}, slot);
-  e.output("Color", e.convert(value, Color));
-  e.output("Vector", value);
-  e.output("Fac", e.emit(kAttributeFactor, {}, slot));
-  e.output("Alpha", e.emit(kAttributeAlpha, {}, slot));
-}
-
-void emit_color_attribute(NodeEmitter& e) {
-  const std::string name = e.property("layer_name");
-  const uint32_t slot = e.attribute(name.empty() ? "color:" : "attribute:" + name);
-  e.output("Color", e.convert(e.emit(kAttribute, {}, slot), Color));
-  e.output("Alpha", e.emit(kAttributeAlpha, {}, slot));
-}
-
-// --- Geometry ------------------------------------------------------------------------------------
-
-constexpr std::string_view kGeometry[] = {"Position",    "Normal",     "Tangent",
-                                          "True Normal", "Incoming",   "Parametric",
-                                          "Backfacing",  "Pointiness", "Random Per Island"};
-constexpr Operation kIncoming = by_view<[](const Context& c) { return c.point.view; }>;
-constexpr Operation kParametric = at_point<[](const Context& c) {
-  const vec2 b = c.point.barycentric;
-  return vec3(1.0f - b.x - b.y, b.x, 0.0f);
-}>;
-constexpr Operation kBackfacing =
-    by_side<[](const Context& c) { return c.point.backfacing() ? 1.0f : 0.0f; }>;
-
-// Around the z axis of the object's box.
-constexpr Operation kSphericalTangent = by_side<[](const Context& c, vec3 generated) {
-  const vec3 n = c.point.facing(c.point.ns);
-  const vec3 t =
-      c.point.object->normal_to_world * vec3(0.5f - generated.y, generated.x - 0.5f, 0.0f);
-  return cross(n, safe_normalize(cross(safe_normalize(t), n)));
-}>;
-
-void emit_geometry(NodeEmitter& e) {
-  e.output("Position", e.emit(kPosition, {}));
-  e.output("Normal", e.emit(kFacingNormal, {}));
-  e.output("Tangent",
-           e.emit(kSphericalTangent, {e.emit(kAttribute, {}, e.attribute("generated"))}));
-  e.output("True Normal", e.emit(kTrueNormal, {}));
-  e.output("Incoming", e.emit(kIncoming, {}));
-  e.output("Parametric", e.emit(kParametric, {}));
-  e.output("Backfacing", e.emit(kBackfacing, {}));
 }
 
 // --- Object Info, Camera Data --------------------------------------------------------------------
@@ -242,10 +180,6 @@ std::optional<bool> light_path_answer(RayType world_ray, std::string_view output
 std::span<const NodeDecl> input_nodes() {
   static const NodeDecl kNodes[] = {
       {"TEX_COORD", {}, kCoordinates, &emit_coordinates},
-      {"UVMAP", {}, kUv, &emit_uv_map},
-      {"ATTRIBUTE", {}, kAttributeOutputs, &emit_attribute},
-      {"VERTEX_COLOR", {}, kColorAlpha, &emit_color_attribute},
-      {"NEW_GEOMETRY", {}, kGeometry, &emit_geometry},
       {"OBJECT_INFO", {}, kObject, &emit_object},
       {"CAMERA", {}, kCamera, &emit_camera},
       {"LIGHT_PATH", {}, kLightPath, &emit_light_path},

@@ -19,11 +19,38 @@ constexpr std::string_view kImageOutputs[] = {"Color", "Alpha"};
 constexpr SocketDecl kImageInputs[] = {{"Vector", Vector, Implicit::Uv}};
 
 // What a lookup does besides: see `data`.
-enum Flags : uint32_t { kUnassociate = 1u << 31 };
+enum Flags : uint32_t { kUnassociate = 1u << 31, kTiled = 1u << 30 };
 
-// Of the picture with the number in `data`.
+const vec4 kMissing(1.0f, 0.0f, 1.0f, 1.0f);  // Cycles' magenta
+
+// The number of the picture on which `uv` lies, and `uv` on it. Tables of tiles hold pairs: the
+// number of a UDIM tile, that of its picture.
+std::optional<uint32_t> find_tile(const std::vector<float>& table, vec2& uv) {
+  if (!(uv.x > -1.0f && uv.x < 10.0f && uv.y > -1.0f && uv.y < 1e6f)) {
+    return std::nullopt;
+  }
+  const vec2 corner = glm::trunc(uv);
+  const float tile = 1001.0f + 10.0f * corner.y + corner.x;
+  for (size_t i = 0; i + 1 < table.size(); i += 2) {
+    if (table[i] == tile) {
+      uv -= corner;
+      return static_cast<uint32_t>(table[i + 1]);
+    }
+  }
+  return std::nullopt;
+}
+
+// Of the picture with the number in `data`, or of a table of tiles.
 vec4 picture(const Context& c, vec2 uv) {
-  const Texture& texture = *c.program.textures[c.data & ~kUnassociate];
+  uint32_t number = c.data & ~(kUnassociate | kTiled);
+  if (c.data & kTiled) {
+    const auto tile = find_tile(c.program.tables[number], uv);
+    if (!tile) {
+      return kMissing;
+    }
+    number = *tile;
+  }
+  const Texture& texture = *c.program.textures[number];
   vec4 rgba = texture.lookup(uv);
   if ((c.data & kUnassociate) && rgba.w != 0.0f && rgba.w != 1.0f) {
     rgba = vec4(vec3(rgba) / rgba.w, rgba.w);
@@ -131,33 +158,50 @@ Extension extension_of(const std::string& name) {
                             : Extension::Repeat;
 }
 
-// The node's picture; where there is none, Cycles' magenta.
-std::optional<uint32_t> add_texture(NodeEmitter& e, Extension extension) {
-  const ImageDesc* image = e.image("image");
-  if (!image) {
-    e.warn("its image is missing; it is rendered magenta, as in Cycles");
-    e.output("Color", e.convert(e.constant(vec3(1, 0, 1)), Color));
-    e.output("Alpha", e.constant(1.0f));
-    return std::nullopt;
-  }
+uint32_t add_picture(NodeEmitter& e, const ImageDesc& image, Extension extension) {
   Texture texture;
-  texture.image = image->pixels;
-  texture.srgb = image->srgb;
+  texture.image = image.pixels;
+  texture.srgb = image.srgb;
   texture.interpolation = interpolation_of(e.property("interpolation"));
   texture.extension = extension;
-  return e.texture(std::move(texture));
+  // Colours are multiplied by alpha, unless somebody takes care of alpha.
+  const bool unassociate = image.associated && e.output_linked("Alpha");
+  return e.texture(std::move(texture)) | (unassociate ? kUnassociate : 0);
+}
+
+// `data` for the node's picture; where there is none, its outputs are Cycles' magenta.
+std::optional<uint32_t> add_texture(NodeEmitter& e, Extension extension) {
+  const std::string key = e.property("image");
+  if (const std::vector<float>* tiles = e.list("tiles")) {
+    std::vector<float> table;
+    uint32_t flags = kTiled;
+    for (const float tile : *tiles) {
+      const std::string name = key + ":" + std::to_string(static_cast<int>(tile));
+      if (const ImageDesc* image = e.image(name)) {
+        const uint32_t data = add_picture(e, *image, extension);
+        flags |= data & kUnassociate;
+        table.insert(table.end(), {tile, static_cast<float>(data & ~kUnassociate)});
+      } else {
+        e.warn("the tile " + std::to_string(static_cast<int>(tile)) +
+               " of its image is missing; it is rendered magenta, as in Cycles");
+      }
+    }
+    return e.table(std::move(table)) | flags;
+  }
+  if (const ImageDesc* image = e.image(key)) {
+    return add_picture(e, *image, extension);
+  }
+  e.warn("its image is missing; it is rendered magenta, as in Cycles");
+  e.output("Color", e.convert(e.constant(vec3(kMissing)), Color));
+  e.output("Alpha", e.constant(1.0f));
+  return std::nullopt;
 }
 
 void emit_image(NodeEmitter& e) {
   const Value p = e.input("Vector");  // first: what is asked for does not depend on the picture
-  auto texture = add_texture(e, extension_of(e.property("extension")));
+  const auto texture = add_texture(e, extension_of(e.property("extension")));
   if (!texture) {
     return;
-  }
-  // Colours are multiplied by alpha, unless somebody takes care of alpha.
-  const ImageDesc* image = e.image("image");
-  if (image->associated && e.output_linked("Alpha")) {
-    *texture |= kUnassociate;
   }
   const std::string projection = e.property("projection", "FLAT");
   Value color = p, alpha = p;

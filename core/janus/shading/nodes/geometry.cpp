@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a shader is told about the surface: attributes, geometry, tangents.
+#include "janus/shading/node_emitter.h"
+#include "janus/shading/nodes/families.h"
+#include "janus/shading/nodes/rotation.h"
+#include "janus/shading/point_reads.h"
+
+namespace janus {
+
+namespace {
+
+using enum SocketType;
+
+constexpr Operation kAttributeAlpha =
+    at_point<[](const Context& c) { return c.point.attribute(c.data).w; }>;
+constexpr Operation kAttributeFactor =
+    at_point<[](const Context& c) { return c.point.attribute_factor(c.data); }>;
+
+// --- Attributes ----------------------------------------------------------------------------------
+
+constexpr std::string_view kUv[] = {"UV"}, kColorAlpha[] = {"Color", "Alpha"},
+                           kAttributeOutputs[] = {"Color", "Vector", "Fac", "Alpha"};
+
+void emit_uv_map(NodeEmitter& e) {
+  const std::string key = e.flag("from_instancer") ? "dupli_uv" : "uv:" + e.property("uv_map");
+  e.output("UV", e.emit(kAttribute, {}, e.attribute(key)));
+}
+
+// Some names mean what Cycles knows of a mesh, and not an attribute of that name.
+std::string geometry_key(const std::string& name) {
+  constexpr std::pair<std::string_view, std::string_view> kKnown[] = {
+      {"N", "normal"},
+      {"uv", "uv:"},
+      {"generated", "generated"},
+      {"tangent", "tangent:"},
+      {"tangent_sign", "tangent_sign:"},
+      {"vertex_color", "color:"},
+      {"pointiness", "pointiness"},
+      {"random_per_island", "random_per_island"},
+  };
+  for (const auto& [known, key] : kKnown) {
+    if (name == known) {
+      return std::string(key);
+    }
+  }
+  for (const std::string kind : {"tangent", "tangent_sign"}) {
+    if (name.ends_with("." + kind)) {
+      return kind + ":" + name.substr(0, name.size() - kind.size() - 1);
+    }
+  }
+  return "attribute:" + name;
+}
+
+// Constants, which whoever wrote the graph has looked up.
+void emit_found(NodeEmitter& e, const std::vector<float>& value) {
+  const vec3 rgb(value[0], value[1], value[2]);
+  e.output("Color", e.convert(e.constant(rgb), Color));
+  e.output("Vector", e.constant(rgb));
+  e.output("Fac", e.constant(average(rgb)));
+  e.output("Alpha", e.constant(value[3]));
+}
+
+void emit_attribute(NodeEmitter& e) {
+  const std::string kind = e.property("attribute_type", "GEOMETRY");
+  const std::string name = e.property("attribute_name");
+  if (kind == "VIEW_LAYER") {
+    const std::vector<float>* value = e.list("value");
+    emit_found(e, value && value->size() == 4 ? *value : std::vector<float>(4, 0.0f));
+    return;
+  }
+  const std::string key = kind == "OBJECT"      ? "object:" + name
+                          : kind == "INSTANCER" ? "instancer:" + name
+                                                : geometry_key(name);
+  const uint32_t slot = e.attribute(key);
+  const Value value = e.emit(kAttribute, {}, slot);
+  e.output("Color", e.convert(value, Color));
+  e.output("Vector", value);
+  e.output("Fac", e.emit(kAttributeFactor, {}, slot));
+  // The handedness of a tangent is no alpha.
+  const bool tangent = key.starts_with("tangent:");
+  e.output("Alpha", tangent ? e.constant(1.0f) : e.emit(kAttributeAlpha, {}, slot));
+}
+
+void emit_color_attribute(NodeEmitter& e) {
+  const std::string name = e.property("layer_name");
+  const uint32_t slot = e.attribute(name.empty() ? "color:" : geometry_key(name));
+  e.output("Color", e.convert(e.emit(kAttribute, {}, slot), Color));
+  e.output("Alpha", e.emit(kAttributeAlpha, {}, slot));
+}
+
+// --- Geometry ------------------------------------------------------------------------------------
+
+constexpr std::string_view kGeometry[] = {"Position",    "Normal",     "Tangent",
+                                          "True Normal", "Incoming",   "Parametric",
+                                          "Backfacing",  "Pointiness", "Random Per Island"};
+constexpr Operation kTrueNormal =
+    by_side<[](const Context& c) { return c.point.facing(c.point.ng); }>;
+constexpr Operation kIncoming = by_view<[](const Context& c) { return c.point.view; }>;
+constexpr Operation kParametric = at_point<[](const Context& c) {
+  const vec2 b = c.point.barycentric;
+  return vec3(1.0f - b.x - b.y, b.x, 0.0f);
+}>;
+constexpr Operation kBackfacing =
+    by_side<[](const Context& c) { return c.point.backfacing() ? 1.0f : 0.0f; }>;
+
+// From a direction of the object to one on its surface.
+vec3 on_surface(const Context& c, vec3 direction) {
+  const vec3 n = c.point.facing(c.point.ns);
+  const vec3 t = c.point.object->normal_to_world * direction;
+  return cross(n, safe_normalize(cross(safe_normalize(t), n)));
+}
+// Around an axis of the object's box.
+constexpr Operation kRadialTangent[] = {
+    by_side<[](const Context& c, vec3 generated) {
+      return on_surface(c, vec3(0.0f, 0.5f - generated.z, generated.y - 0.5f));
+    }>,
+    by_side<[](const Context& c, vec3 generated) {
+      return on_surface(c, vec3(0.5f - generated.z, 0.0f, generated.x - 0.5f));
+    }>,
+    by_side<[](const Context& c, vec3 generated) {
+      return on_surface(c, vec3(0.5f - generated.y, generated.x - 0.5f, 0.0f));
+    }>};
+constexpr Operation kTangentOnSurface = by_side<&on_surface>;
+
+void emit_geometry(NodeEmitter& e) {
+  e.output("Position", e.emit(kPosition, {}));
+  e.output("Normal", e.emit(kFacingNormal, {}));
+  e.output("Tangent",
+           e.emit(kRadialTangent[2], {e.emit(kAttribute, {}, e.attribute("generated"))}));
+  e.output("True Normal", e.emit(kTrueNormal, {}));
+  e.output("Incoming", e.emit(kIncoming, {}));
+  e.output("Parametric", e.emit(kParametric, {}));
+  e.output("Backfacing", e.emit(kBackfacing, {}));
+  for (const auto& [output, key] : {std::pair("Pointiness", "pointiness"),
+                                    std::pair("Random Per Island", "random_per_island")}) {
+    if (e.output_linked(output)) {  // they take a while to compute
+      e.output(output, e.emit(kAttributeFactor, {}, e.attribute(key)));
+    }
+  }
+}
+
+// --- Tangent -------------------------------------------------------------------------------------
+
+constexpr std::string_view kTangent[] = {"Tangent"};
+
+void emit_tangent(NodeEmitter& e) {
+  if (e.property("direction_type", "RADIAL") == "UV_MAP") {
+    const uint32_t slot = e.attribute("tangent:" + e.property("uv_map"));
+    e.output("Tangent", e.emit(kTangentOnSurface, {e.emit(kAttribute, {}, slot)}));
+    return;
+  }
+  const std::string axis = e.property("axis", "Z");
+  e.output("Tangent", e.emit(kRadialTangent[axis == "X"   ? 0
+                                            : axis == "Y" ? 1
+                                                          : 2],
+                             {e.emit(kAttribute, {}, e.attribute("generated"))}));
+}
+
+}  // namespace
+
+std::span<const NodeDecl> geometry_nodes() {
+  static const NodeDecl kNodes[] = {
+      {"UVMAP", {}, kUv, &emit_uv_map},
+      {"ATTRIBUTE", {}, kAttributeOutputs, &emit_attribute},
+      {"VERTEX_COLOR", {}, kColorAlpha, &emit_color_attribute},
+      {"NEW_GEOMETRY", {}, kGeometry, &emit_geometry},
+      {"TANGENT", {}, kTangent, &emit_tangent},
+  };
+  return kNodes;
+}
+
+}  // namespace janus
