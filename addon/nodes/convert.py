@@ -28,27 +28,57 @@ def socket_value(socket):
     """
     if socket.type == "SHADER" or (socket.type in TRIPLES and socket.hide_value):
         return None
-    return plain(getattr(socket, "default_value", None))
+    value = plain(getattr(socket, "default_value", None))
+    return _triple(value) if socket.type in TRIPLES and value is not None else value
 
 
 def convert(value, source: str, target: str):
     """Converts a constant from one socket type to another as Cycles does; None if impossible."""
     if value is None or source == target:
         return value
-    if target in NUMBERS:
+    if target in ("INT", "BOOLEAN", "VALUE"):
+        if target == "BOOLEAN" and source in TRIPLES:
+            return any(value)
         number = _to_number(value, source)
         if number is None or target == "VALUE":
             return number
-        return number != 0 if target == "BOOLEAN" else int(number)
+        return number > 0 if target == "BOOLEAN" else int(number)
     if target == "RGBA":
         if source in NUMBERS:
             return [float(value)] * 3 + [1.0]
-        return [*value[:3], 1.0] if source in TRIPLES else None
+        return [*_triple(value), 1.0] if source in TRIPLES else None
     if target in TRIPLES:
         if source in NUMBERS:
             return [float(value)] * 3
-        return list(value[:3]) if source in ("RGBA", *TRIPLES) else None
+        return _triple(value) if source in ("RGBA", *TRIPLES) else None
     return None
+
+
+def conversion_node(source: str, target: str, link) -> tuple[str, dict, dict, str] | None:
+    """A node of values that does what convert() does: its type, inputs, properties and output; None
+    where no conversion can be seen. From a vector to a boolean it is the first of two: its length.
+    """
+    if {source, target} - {"RGBA", *NUMBERS, *TRIPLES} or source == target:
+        return None
+    if source in NUMBERS and target not in ("INT", "BOOLEAN"):
+        return None
+    if target == "RGBA" and source in TRIPLES:
+        return "GAMMA", {"Color": link, "Gamma": 1.0}, {}, "Color"
+    if target in TRIPLES and source == "RGBA":
+        inputs = {"Vector": link, "Vector_001": [0.0, 0.0, 0.0]}
+        return "VECT_MATH", inputs, {"operation": "ADD"}, "Vector"
+    if target in NUMBERS:
+        if target == "BOOLEAN" and source in TRIPLES:
+            inputs = {"Vector": link, "Vector_001": [0.0, 0.0, 0.0]}
+            return "VECT_MATH", inputs, {"operation": "LENGTH"}, "Value"
+        operation = {"INT": "TRUNC", "BOOLEAN": "GREATER_THAN", "VALUE": "ADD"}[target]
+        return "MATH", {"Value": link, "Value_001": 0.0}, {"operation": operation}, "Value"
+    return None
+
+
+def _triple(value) -> list:
+    """Vectors may have two numbers, or four."""
+    return [*value[:3], *[0.0] * (3 - len(value))]
 
 
 def _to_number(value, source: str) -> float | None:
@@ -57,5 +87,5 @@ def _to_number(value, source: str) -> float | None:
     if source == "RGBA":
         return sum(w * c for w, c in zip(LUMINANCE, value, strict=False))
     if source in TRIPLES:
-        return sum(value[:3]) / 3.0
+        return sum(_triple(value)) / 3.0
     return None

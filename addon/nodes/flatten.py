@@ -16,32 +16,27 @@ from dataclasses import dataclass
 
 import bpy
 
-from .convert import convert, plain, socket_value
+from .convert import TRIPLES, conversion_node, convert, plain, socket_value
 from .drawn import drawn_properties
+from .links import CONSTANT_NODES, End, LinkReader, Scope
 
 # Property types that are plain data; pointers (ramps, curves) need code of their own.
 PLAIN_PROPERTIES = {"ENUM", "BOOLEAN", "INT", "FLOAT", "STRING"}
-CONSTANT_NODES = {"RGB", "VALUE"}
-MAX_STEPS = 10_000  # a cycle through broken links must end
-
-
-@dataclass(frozen=True)
-class Scope:
-    """Where a node stands: the group node that was entered, and the scope around it."""
-
-    group: object = None
-    parent: "Scope | None" = None
-
-    @property
-    def prefix(self) -> str:
-        return f"{self.parent.prefix}{self.group.name}/" if self.group else ""
+MAX_NODES = 100_000  # of a flat graph: zones in zones may ask for any number
+MAX_DEPTH = 100
+# Nodes that Blender computes itself where all their inputs are constants (from 5.0 on): what they
+# give is a constant, too, and takes the types of the sockets that it passes.
+FOLDED_NODES = {
+    *("BLACKBODY", "CLAMP", "COMBXYZ", "CURVE_FLOAT", "CURVE_RGB", "CURVE_VEC", "GAMMA"),
+    *("MAP_RANGE", "MATH", "MIX", "MIX_RGB", "SEPXYZ", "VALTORGB", "VECTOR_ROTATE", "VECT_MATH"),
+}
 
 
 @dataclass(frozen=True)
 class Source:
     """What feeds an input: an output of a node of the flat graph, or a constant."""
 
-    type: str  # of the socket that it comes from
+    type: str
     link: list[str] | None = None
     value: object = None
 
@@ -71,22 +66,27 @@ def diffuse_graph(color) -> dict:
 class _Flattener:
     def __init__(self):
         self.nodes = []
-        self._names = {}  # (names of the groups around it, its own) -> unique flat name
+        self._links = LinkReader()
+        self._names = {}  # (names of what is around it, its own) -> unique flat name
         self._taken = set()
         self._pending = deque()
 
     def run(self) -> None:
-        """Writes out the nodes that links have asked for, until none is new."""
-        while self._pending:
+        """Writes out the nodes that links have asked for, until none is new.
+
+        Of more than MAX_NODES the rest is left out, and the core says that it is not there.
+        """
+        while self._pending and len(self.nodes) < MAX_NODES:
             node, scope, name = self._pending.popleft()
             inputs = {s.identifier: self.input(s, scope) for s in node.inputs if s.enabled}
             self._write(name, node.type, inputs, _properties(node))
 
     def input(self, socket, scope: Scope):
         """What the graph says for one input: a link, a value, or None."""
-        source = self._source(socket, scope)
-        if source is None:
+        end = self._links.follow(socket, scope)
+        if end is None:
             return socket_value(socket)
+        source = self._source(end)
         if socket.type == "SHADER":
             return source.as_input() if source.type == "SHADER" else self._emission(source)
         if source.type == "SHADER":  # Blender draws this link red and ignores it
@@ -96,45 +96,49 @@ class _Flattener:
         value = convert(source.value, source.type, socket.type)
         return socket_value(socket) if value is None else value
 
-    def _source(self, socket, scope: Scope) -> Source | None:
-        """Follows links through reroutes, muted nodes and groups. None: nothing is connected.
+    def _source(self, end: End) -> Source:
+        if end.node is None:
+            return _through(Source(end.type, value=end.value), end.passed)
+        if end.node.type in CONSTANT_NODES:
+            source = Source(end.type, value=plain(end.output.default_value))
+            straight = end.node.type == "RGB" and converts_constants_only()
+            return source if straight else _through(source, end.passed)
+        source = Source(end.type, [self._name(end.node, end.scope), end.output.identifier])
+        if not end.passed or source.type == "SHADER":
+            return source
+        if converts_constants_only() and not self._is_constant(end):
+            return source
+        for target in reversed(end.passed):
+            source = self._converted(source, target)
+        return source
 
-        A constant takes the type of every socket that it passes, as in Blender.
-        """
-        passed = []
-        for _ in range(MAX_STEPS):
-            link = _active_link(socket)
-            if link is None:
-                return None
-            node, output = link.from_node, link.from_socket
-            if not node.mute and node.type == "GROUP_INPUT" and scope.group is None:
-                return None
-            if not _passes_through(node):
-                return _through(self._output(node, output, scope), passed)
-            socket, scope = _behind(node, output, scope)
-            if socket is None:
-                return None
-            if not socket.is_linked and node.type != "REROUTE":
-                value = socket_value(socket)
-                return None if value is None else _through(Source(socket.type, value=value), passed)
-            passed.append(socket.type)
-        return None
+    def _is_constant(self, end: End, depth: int = 0) -> bool:
+        """Does Blender compute it before Cycles sees it?"""
+        if end.node is None or end.node.type == "VALUE":
+            return True
+        if end.node.type not in FOLDED_NODES or depth > MAX_DEPTH:
+            return False
+        ends = (self._links.follow(s, end.scope) for s in end.node.inputs if s.enabled)
+        return all(e is None or self._is_constant(e, depth + 1) for e in ends)
 
-    def _output(self, node, output, scope: Scope) -> Source:
-        if node.type in CONSTANT_NODES:
-            return Source(output.type, value=plain(output.default_value))
-        return Source(output.type, link=[self._name(node, scope), output.identifier])
+    def _converted(self, source: Source, target: str) -> Source:
+        """The source as a socket of another type lets it pass."""
+        made = conversion_node(source.type, target, source.as_input())
+        if made is None:
+            return source
+        kind, inputs, properties, output = made
+        name = self._unique("Conversion")
+        self._write(name, kind, inputs, properties)
+        result = Source(target, [name, output])
+        if target == "BOOLEAN" and source.type in TRIPLES:
+            return self._converted(Source("VALUE", result.link), target)
+        return result
 
     def _name(self, node, scope: Scope) -> str:
         """The node's name in the flat graph; the first request puts it on the list of work."""
-        path = [node.name]
-        around = scope
-        while around.group is not None:
-            path.append(around.group.name)
-            around = around.parent
-        key = tuple(path)
+        key = (*scope.labels, node.name)
         if key not in self._names:
-            self._names[key] = self._unique(scope.prefix + node.name)
+            self._names[key] = self._unique("/".join(key))
             self._pending.append((node, scope, self._names[key]))
         return self._names[key]
 
@@ -158,53 +162,18 @@ class _Flattener:
         self.nodes.append({"name": name, "type": kind, "inputs": inputs, "properties": properties})
 
 
-def _through(source: Source, passed: list[str]) -> Source:
+def converts_constants_only() -> bool:
+    """From Blender 5.0 on what varies passes the sockets of groups as it is."""
+    return bpy.app.version >= (5, 0, 0)
+
+
+def _through(source: Source, passed: tuple[str, ...]) -> Source:
     """A constant source after the sockets on its way, given from the destination on."""
-    if source.link or source.type == "SHADER":
-        return source
     for kind in reversed(passed):
         value = convert(source.value, source.type, kind)
         if value is not None:
             source = Source(kind, value=value)
     return source
-
-
-def _active_link(socket):
-    if not socket.is_linked:
-        return None
-    for link in socket.links:
-        if link.is_valid and not link.is_muted:
-            return link
-    return None
-
-
-def _passes_through(node) -> bool:
-    return node.mute or node.type in ("REROUTE", "GROUP", "GROUP_INPUT")
-
-
-def _behind(node, output, scope: Scope):
-    """The input that feeds `output` of a node that only passes values on, and its scope."""
-    if node.mute:
-        inputs = [k.from_socket for k in node.internal_links if k.to_socket == output]
-        return (inputs[0] if inputs else None), scope
-    if node.type == "REROUTE":
-        return node.inputs[0], scope
-    if node.type == "GROUP_INPUT":
-        return _by_identifier(scope.group.inputs, output.identifier), scope.parent
-    inner = _group_output(node.node_tree)
-    socket = _by_identifier(inner.inputs, output.identifier) if inner else None
-    return socket, Scope(node, scope)
-
-
-def _group_output(tree):
-    if tree is None:
-        return None
-    outputs = [node for node in tree.nodes if node.type == "GROUP_OUTPUT"]
-    return next((node for node in outputs if node.is_active_output), None)
-
-
-def _by_identifier(sockets, identifier: str):
-    return next((socket for socket in sockets if socket.identifier == identifier), None)
 
 
 def image_key(image) -> str:

@@ -163,18 +163,20 @@ def test_groups_in_groups(tree):
 
 
 def test_constant_takes_the_type_of_the_group_socket(tree):
-    """A colour through a number socket into a colour comes out grey, as in Blender."""
+    """A vector through a number socket into a colour comes out grey, as in Blender."""
     group = make_group(inputs=[("Number", "Float")], outputs=[("Shader", "Shader")])
     emission = add(group, "Emission", "Lamp")
     group.links.new(group.nodes["In"].outputs["Number"], emission.inputs["Color"])
     group.links.new(emission.outputs[0], group.nodes["Out"].inputs["Shader"])
-    node = use_group(tree, group)
-    color = add(tree, "RGB")
-    color.outputs[0].default_value = (1.0, 0.0, 0.0, 1.0)
-    tree.links.new(color.outputs[0], node.inputs["Number"])
+    outer = make_group("Outer", inputs=[("Vector", "Vector")], outputs=[("Shader", "Shader")])
+    inner = use_group(outer, group)
+    outer.links.new(outer.nodes["In"].outputs["Vector"], inner.inputs["Number"])
+    outer.links.new(inner.outputs[0], outer.nodes["Out"].inputs["Shader"])
+    node = use_group(tree, outer)
+    node.inputs["Vector"].default_value = (1.0, 0.0, 0.5)
     to_output(tree, node.outputs[0])
     _, nodes = flatten(tree)
-    assert nodes["Group/Lamp"]["inputs"]["Color"] == pytest.approx([0.2126] * 3 + [1.0])
+    assert nodes["Group/Group/Lamp"]["inputs"]["Color"] == pytest.approx([0.5] * 3 + [1.0])
 
 
 def test_group_without_tree_or_output(tree):
@@ -263,3 +265,46 @@ def test_graph_is_plain_data(tree):
     graph, _ = flatten(tree)
     assert len(graph["nodes"]) > 60
     assert json.loads(json.dumps(graph)) == graph
+
+
+@pytest.mark.skipif(bpy.app.version < (5, 0, 0), reason="Repeat zones came with Blender 5.0")
+class TestZones:
+    @pytest.fixture
+    def zone(self, tree):
+        """A zone that adds 1 to X; its two nodes. X ends in an Emission."""
+        start = tree.nodes.new("GeometryNodeRepeatInput")
+        end = tree.nodes.new("GeometryNodeRepeatOutput")
+        start.pair_with_output(end)
+        end.repeat_items.new("FLOAT", "X")
+        more = add(tree, "Math", "More")
+        more.inputs[1].default_value = 1.0
+        tree.links.new(start.outputs["X"], more.inputs[0])
+        tree.links.new(more.outputs[0], end.inputs["X"])
+        emission = add(tree, "Emission", "Lamp")
+        tree.links.new(end.outputs["X"], emission.inputs["Strength"])
+        to_output(tree, emission.outputs[0])
+        return start, end
+
+    def test_is_unrolled(self, tree, zone):
+        start, end = zone
+        start.inputs["Iterations"].default_value = 3
+        start.inputs["X"].default_value = 5.0
+        outside = add(tree, "TexCoord", "Outside")
+        tree.links.new(outside.outputs["UV"], tree.nodes["More"].inputs[1])
+        _, nodes = flatten(tree)
+        inside = [f"{end.name}:{i}/More" for i in range(3)]
+        assert sorted(nodes) == ["Lamp", "Outside", *inside]
+        assert nodes[inside[0]]["inputs"]["Value"] == 5.0
+        assert nodes[inside[2]]["inputs"]["Value"] == {"link": [inside[1], "Value"]}
+
+    def test_number_of_iterations_that_varies_is_left_to_the_core(self, tree, zone):
+        start, end = zone
+        varying = add(tree, "TexCoord")
+        tree.links.new(varying.outputs["UV"], start.inputs["Iterations"])
+        _, nodes = flatten(tree)
+        assert nodes[end.name]["type"] == "REPEAT_OUTPUT"
+
+    def test_huge_number_of_iterations_ends(self, tree, zone):
+        zone[0].inputs["Iterations"].default_value = 2**31 - 1
+        _, nodes = flatten(tree)
+        assert zone[1].name in nodes

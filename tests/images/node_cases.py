@@ -37,6 +37,18 @@ class Tree:
             return made.outputs[output]
         return next(s for s in made.outputs if s.identifier == output)
 
+    def value(self, x: float):
+        """The output of a Value node."""
+        output = self.node("Value").outputs[0]
+        output.default_value = x
+        return output
+
+    def rgb(self, color):
+        """The output of an RGB node."""
+        output = self.node("RGB").outputs[0]
+        output.default_value = color
+        return output
+
     def coordinate(self, name: str):
         if "coordinates" not in self._kept:
             self._kept["coordinates"] = self.node("TexCoord")
@@ -99,11 +111,12 @@ def add_cases() -> None:
     """Fills CASES; needs bpy for the enums."""
     if CASES:
         return
-    from . import node_cases_places
+    from . import node_cases_groups, node_cases_places
 
     math_cases()
     color_cases()
     node_cases_places.add_cases()
+    node_cases_groups.add_cases()
 
 
 def math_cases() -> None:

@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From an input of a node back to what feeds it, through all that only passes values on: reroutes,
+muted nodes, groups, Repeat zones, Menu Switches, bundles and closures.
+
+What cannot be resolved (a number of iterations that is no constant) stays a node of the graph, for
+the core to name.
+"""
+
+from dataclasses import dataclass, field
+
+from .convert import convert, plain, socket_value
+
+MAX_STEPS = 10_000  # a cycle through broken links must end, and so must a zone
+MAX_DEPTH = 50  # of bundles in bundles, menus by menus
+CONSTANT_NODES = {"RGB", "VALUE"}
+ZONE_INPUTS = {"REPEAT_INPUT", "NodeClosureInput"}
+
+
+@dataclass(frozen=True)
+class Scope:
+    """Where a node stands: what was entered (a group node, or the output node of a zone), and the
+    scope around it.
+    """
+
+    kind: str = ""  # GROUP, REPEAT, CLOSURE; empty: the tree itself
+    node: object = None
+    parent: "Scope | None" = None
+    iteration: int = 0  # of a Repeat zone
+    caller: "tuple | None" = field(default=None, compare=False)  # of a closure: who evaluates it
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The names on the way here, from the outermost."""
+        if self.parent is None:
+            return ()
+        number = f":{self.iteration}" if self.kind == "REPEAT" else ""
+        own = f"{self.node.name}{number}"
+        if self.caller is not None:
+            evaluate, scope = self.caller
+            own = "/".join((*scope.labels, evaluate.name, own))
+        return (*self.parent.labels, own)
+
+
+@dataclass(frozen=True)
+class End:
+    """What feeds an input: an output of a node, or a constant (then `node` is None)."""
+
+    type: str  # of the socket that it comes from
+    node: object = None
+    output: object = None
+    scope: Scope | None = None
+    value: object = None
+    passed: tuple[str, ...] = ()  # the types of the sockets on the way, from the destination on
+
+
+class LinkReader:
+    """Follows the links of a tree and of what it contains."""
+
+    def __init__(self):
+        self._zones = {}
+
+    def follow(self, socket, scope: Scope, depth: int = 0) -> End | None:
+        """What feeds the input; None: nothing is connected."""
+        passed = []
+        keeps_value = False  # has the socket at hand a value of its own?
+        for _ in range(MAX_STEPS):
+            link = _active_link(socket)
+            if link is None:
+                value = socket_value(socket) if keeps_value else None
+                return None if value is None else End(socket.type, value=value, passed=(*passed,))
+            node, output = link.from_node, link.from_socket
+            scope = self._leave_zones(node, scope)
+            step = self._behind(node, output, scope, depth)
+            if step is None:
+                return None
+            if isinstance(step, End):
+                return End(**{**step.__dict__, "passed": (*passed, *step.passed)})
+            socket, scope = step
+            if socket is None:
+                return None
+            keeps_value = node.mute or node.type != "REROUTE"
+            if keeps_value and _active_link(socket) is not None or node.type == "REROUTE":
+                passed.append(socket.type)
+        return None
+
+    def constant(self, socket, scope: Scope, depth: int = 0):
+        """The value of an input if it is one and the same everywhere, else None."""
+        end = self.follow(socket, scope, depth + 1)
+        if end is None:
+            return socket_value(socket)
+        value, kind = end.value, end.type
+        if end.node is not None:
+            if end.node.type not in CONSTANT_NODES:
+                return None
+            value = plain(end.output.default_value)
+        for target in (*reversed(end.passed), socket.type):
+            value, kind = convert(value, kind, target), target
+        return value
+
+    def _behind(self, node, output, scope: Scope, depth: int):
+        """The input that feeds `output` of a node that only passes values on, and its scope; an End
+        where there is none to look behind; None: nothing feeds it.
+        """
+        if node.mute:
+            inputs = [k.from_socket for k in node.internal_links if k.to_socket == output]
+            return (inputs[0], scope) if inputs else None
+        step = STEPS.get(node.type)
+        found = (
+            step(self, node, output, scope, depth) if step and depth < MAX_DEPTH else NotImplemented
+        )
+        return End(output.type, node, output, scope) if found is NotImplemented else found
+
+    def _reroute(self, node, _output, scope, _depth):
+        return node.inputs[0], scope
+
+    def _group_input(self, _node, output, scope, _depth):
+        if scope.kind != "GROUP":
+            return None
+        return _by_identifier(scope.node.inputs, output.identifier), scope.parent
+
+    def _group(self, node, output, scope, _depth):
+        inner = _group_output(node.node_tree)
+        socket = _by_identifier(inner.inputs, output.identifier) if inner else None
+        return socket, Scope("GROUP", node, scope)
+
+    def _menu_switch(self, node, output, scope, depth):
+        chosen = self.constant(node.inputs["Menu"], scope, depth)
+        items = [s for s in node.inputs if s.identifier.startswith("Item_")]
+        item = next((s for s in items if s.name == chosen), None)
+        if output.identifier.startswith("Item_"):
+            is_chosen = item is not None and item.identifier == output.identifier
+            return End("BOOLEAN", value=is_chosen)
+        return None if item is None else (item, scope)
+
+    def _repeat_output(self, node, output, scope, depth):
+        start = zone_input(node)
+        count = self.constant(start.inputs["Iterations"], scope, depth) if start else None
+        if count is None or count > MAX_STEPS:
+            return NotImplemented
+        if count < 1:
+            return _by_identifier(start.inputs, output.identifier), scope
+        inside = Scope("REPEAT", node, scope, count - 1)
+        return _by_identifier(node.inputs, output.identifier), inside
+
+    def _repeat_input(self, node, output, scope, _depth):
+        if scope.kind != "REPEAT":
+            return None
+        if output.identifier == "Iteration":
+            return End("INT", value=scope.iteration)
+        if scope.iteration == 0:
+            return _by_identifier(node.inputs, output.identifier), scope.parent
+        before = Scope("REPEAT", scope.node, scope.parent, scope.iteration - 1)
+        return _by_identifier(scope.node.inputs, output.identifier), before
+
+    def _separate_bundle(self, node, output, scope, depth):
+        end = self.follow(node.inputs["Bundle"], scope, depth + 1)
+        if end is None or end.node is None or end.node.type != "NodeCombineBundle":
+            return None
+        return _by_name(end.node.inputs, output.name), end.scope
+
+    def _evaluate_closure(self, node, output, scope, depth):
+        end = self.follow(node.inputs["Closure"], scope, depth + 1)
+        if end is None or end.node is None or end.node.type != "NodeClosureOutput":
+            return None
+        inside = Scope("CLOSURE", end.node, end.scope, caller=(node, scope))
+        return _by_name(end.node.inputs, output.name), inside
+
+    def _closure_input(self, _node, output, scope, _depth):
+        if scope.kind != "CLOSURE":
+            return None
+        evaluate, around = scope.caller
+        return _by_name(evaluate.inputs, output.name), around
+
+    def _leave_zones(self, node, scope: Scope) -> Scope:
+        """What a zone does not change is outside of it, even if the zone reads it."""
+        while scope.kind in ("REPEAT", "CLOSURE") and node.name not in self._inside(scope.node):
+            scope = scope.parent
+        return scope
+
+    def _inside(self, output_node) -> set[str]:
+        """The names of the nodes of a zone: those that its input reaches."""
+        tree = output_node.id_data
+        key = (tree.as_pointer(), output_node.name)
+        if key not in self._zones:
+            start = zone_input(output_node)
+            targets = {}
+            for link in tree.links:
+                targets.setdefault(link.from_node.name, []).append(link.to_node.name)
+            inside, pending = set(), [start.name] if start else []
+            while pending:
+                name = pending.pop()
+                if name not in inside and name != output_node.name:
+                    inside.add(name)
+                    pending += targets.get(name, ())
+            self._zones[key] = inside
+        return self._zones[key]
+
+
+STEPS = {
+    "REROUTE": LinkReader._reroute,
+    "GROUP_INPUT": LinkReader._group_input,
+    "GROUP": LinkReader._group,
+    "MENU_SWITCH": LinkReader._menu_switch,
+    "REPEAT_OUTPUT": LinkReader._repeat_output,
+    "REPEAT_INPUT": LinkReader._repeat_input,
+    "NodeSeparateBundle": LinkReader._separate_bundle,
+    "NodeEvaluateClosure": LinkReader._evaluate_closure,
+    "NodeClosureInput": LinkReader._closure_input,
+}
+
+
+def zone_input(output_node):
+    """The node with which a zone starts, by that with which it ends."""
+    starts = (n for n in output_node.id_data.nodes if n.type in ZONE_INPUTS)
+    return next((n for n in starts if n.paired_output == output_node), None)
+
+
+def _active_link(socket):
+    if not socket.is_linked:
+        return None
+    for link in socket.links:
+        if link.is_valid and not link.is_muted:
+            return link
+    return None
+
+
+def _group_output(tree):
+    if tree is None:
+        return None
+    outputs = [node for node in tree.nodes if node.type == "GROUP_OUTPUT"]
+    return next((node for node in outputs if node.is_active_output), None)
+
+
+def _by_identifier(sockets, identifier: str):
+    return next((socket for socket in sockets if socket.identifier == identifier), None)
+
+
+def _by_name(sockets, name: str):
+    return next((socket for socket in sockets if socket.name == name), None)
