@@ -52,6 +52,14 @@ def _filter_width(node) -> dict:
     return {} if socket is None else {"filter_width": socket.default_value}
 
 
+def _image_user(node) -> dict:
+    if node.image is None or node.image.source not in ("SEQUENCE", "MOVIE"):
+        return {}
+    user = node.image_user
+    cyclic = int(user.use_cyclic)
+    return {"image_user": [user.frame_duration, user.frame_start, user.frame_offset, cyclic]}
+
+
 READERS = {
     "BUMP": _filter_width,
     "VALTORGB": _ramp,
@@ -60,4 +68,6 @@ READERS = {
     "CURVE_FLOAT": _curves,
     "NORMAL": _direction,
     "TEX_COORD": _other_object,
+    "TEX_IMAGE": _image_user,
+    "TEX_ENVIRONMENT": _image_user,
 }

@@ -3,19 +3,18 @@
 
 from ..nodes import diffuse_graph
 from .graph import read_graph
-from .image import send_images
 from .world import uses_nodes
 
 
 class MaterialSync:
     """Sends materials on first use."""
 
-    def __init__(self, builder, depsgraph, log):
+    def __init__(self, builder, depsgraph, images, log):
         self._builder = builder
         self._depsgraph = depsgraph
         self._override = depsgraph.view_layer_eval.material_override
         self._log = log
-        self._images = set()  # keys of what has been sent
+        self._images = images
         self._sent = {}  # key -> keys of the mesh attributes that it reads
 
     def attributes(self, keys) -> frozenset[str]:
@@ -35,7 +34,7 @@ class MaterialSync:
         key = f"material:{material.name_full}"
         if key not in self._sent:
             graph = self._graph(material)
-            send_images(self._builder, graph, material, self._log, self._images)
+            self._images.send(graph, material)
             self._sent[key] = self._builder.set_material(
                 key,
                 name=material.name,

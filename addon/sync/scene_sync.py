@@ -2,6 +2,7 @@
 """One way from a depsgraph to a scene, for F12, captures and tests alike."""
 
 from .camera import sync_camera
+from .image import ImageSync
 from .instance import InstanceSync
 from .material import MaterialSync
 from .poll import Poll
@@ -18,7 +19,8 @@ def sync_scene(builder, depsgraph, log, test_break=lambda: False) -> None:
     poll = Poll(test_break)
     poll()
     sync_camera(builder, depsgraph, log)
-    sync_world(builder, depsgraph, log)
+    images = ImageSync(builder, depsgraph, log)
+    sync_world(builder, depsgraph, images, log)
     check_scene(depsgraph, log)
-    materials = MaterialSync(builder, depsgraph, log)
+    materials = MaterialSync(builder, depsgraph, images, log)
     InstanceSync(builder, materials, log, poll).run(depsgraph)

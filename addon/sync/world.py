@@ -4,11 +4,10 @@
 import bpy
 
 from .graph import read_graph
-from .image import send_images
 from .visibility import LIGHT_RAYS
 
 
-def sync_world(builder, depsgraph, log) -> None:
+def sync_world(builder, depsgraph, images, log) -> None:
     """Sends the world of the view layer; no world is black."""
     layer = depsgraph.view_layer_eval
     world = getattr(layer, "world_override", None) or depsgraph.scene_eval.world
@@ -20,7 +19,7 @@ def sync_world(builder, depsgraph, log) -> None:
         if output and output.inputs["Volume"].is_linked:
             log.warning("volumes are not supported yet", object=world.name)
         graph = read_graph(world.node_tree, depsgraph)
-        send_images(builder, graph, world, log, set())
+        images.send(graph, world)
     else:
         graph = background_graph(world.color)
     if getattr(getattr(world, "cycles", None), "max_bounces", 1024) < 1024:

@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 
 import bpy
+import numpy as np
 import pytest
 from fake_core import FakeCore
 
@@ -126,3 +127,26 @@ def new_material(name="Material"):
         material.use_nodes = True
     material.node_tree.nodes.clear()
     return material
+
+
+def environment(scene, image):
+    """A world whose background shows `image`; its texture node."""
+    scene.world = world = bpy.data.worlds.new("Sky")
+    if bpy.app.version < (5, 0, 0):
+        world.use_nodes = True
+    tree = world.node_tree
+    texture = tree.nodes.new("ShaderNodeTexEnvironment")
+    texture.image = image
+    tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    return texture
+
+
+def picture(pixels, space=None, **arguments):
+    pixels = np.asarray(pixels, dtype=np.float32)
+    height, width = pixels.shape[:2]
+    image = bpy.data.images.new("Picture", width, height, alpha=True, **arguments)
+    if space:  # first: it makes Blender fill the picture anew
+        image.colorspace_settings.name = space
+    image.pixels.foreach_set(pixels.ravel())
+    image.update()
+    return image

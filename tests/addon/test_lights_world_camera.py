@@ -6,7 +6,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from conftest import add_light, add_square, messages, new_material, part
+from conftest import add_light, add_square, environment, messages, new_material, picture
 from mathutils import Matrix, Vector
 
 
@@ -151,81 +151,6 @@ def test_square_spots_are_round(scene, export):
     add_light("SPOT", "Spot").data.use_square = True
     export()
     assert any("Spot" in message and "round" in message for message in messages("INFO"))
-
-
-def environment(scene, image):
-    """A world whose background shows `image`; its texture node."""
-    scene.world = world = bpy.data.worlds.new("Sky")
-    if bpy.app.version < (5, 0, 0):
-        world.use_nodes = True
-    tree = world.node_tree
-    texture = tree.nodes.new("ShaderNodeTexEnvironment")
-    texture.image = image
-    tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
-    return texture
-
-
-def picture(pixels, space=None, **arguments):
-    pixels = np.asarray(pixels, dtype=np.float32)
-    height, width = pixels.shape[:2]
-    image = bpy.data.images.new("Picture", width, height, alpha=True, **arguments)
-    if space:  # first: it makes Blender fill the picture anew
-        image.colorspace_settings.name = space
-    image.pixels.foreach_set(pixels.ravel())
-    image.update()
-    return image
-
-
-def test_world_image_of_floats(scene, export):
-    pixels = np.random.default_rng(1).uniform(0.0, 9.0, (2, 4, 4))
-    environment(scene, picture(pixels, float_buffer=True)).interpolation = "Closest"
-    recorder = export()
-    ((key, sent),) = recorder.images.items()
-    node = next(n for n in recorder.world["graph"]["nodes"] if n["type"] == "TEX_ENVIRONMENT")
-    assert node["properties"]["image"] == key
-    assert node["properties"]["interpolation"] == "Closest"
-    assert node["properties"]["projection"] == "EQUIRECTANGULAR"
-    assert sent["name"] == "Picture" and sent["srgb"] is False
-    assert sent["pixels"] == pytest.approx(pixels, rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("space", "srgb"), [("sRGB", True), ("Non-Color", False), ("Linear Rec.709", False)]
-)
-def test_world_image_of_bytes(scene, export, space, srgb):
-    pixels = np.zeros((2, 4, 4))
-    pixels[..., 0], pixels[..., 3] = np.arange(8).reshape(2, 4) / 255.0, 1.0
-    pixels[1, 3] = (100 / 255, 0, 0, 128 / 255)
-    environment(scene, picture(pixels, space))
-    (sent,) = export().images.values()
-    assert sent["srgb"] is srgb
-    expected = np.arange(8)
-    # Cycles multiplies colours by alpha, in bytes; what is no colour it leaves alone.
-    expected[7] = 100 if space == "Non-Color" else 50
-    assert 255 * sent["pixels"][..., 0].ravel() == pytest.approx(expected, abs=1e-4)
-    assert messages("WARNING") == []
-
-
-def test_other_color_spaces_are_named(scene, export):
-    image = picture(np.ones((1, 1, 4)))
-    spaces = image.colorspace_settings.bl_rna.properties["name"].enum_items.keys()
-    image.colorspace_settings.name = next(s for s in spaces if s.startswith("ACES"))
-    environment(scene, image)
-    assert next(iter(export().images.values()))["srgb"] is True
-    (message,) = messages("WARNING")
-    assert "Sky" in message and "Environment Texture" in message and "ACES" in message
-
-
-def test_world_without_its_image(scene, core):
-    """The core names the node; nothing else happens."""
-    image = bpy.data.images.new("Gone", 4, 2)
-    image.source, image.filepath = "FILE", "/nowhere/gone.hdr"
-    for broken in (None, image):
-        environment(scene, broken)
-        part("report").forget()
-        bpy.ops.render.render()
-        (message,) = messages("WARNING")
-        assert "Environment Texture" in message and "missing" in message
 
 
 def test_unsupported_nodes_of_worlds_are_named(scene, core):

@@ -111,11 +111,12 @@ def add_cases() -> None:
     """Fills CASES; needs bpy for the enums."""
     if CASES:
         return
-    from . import node_cases_groups, node_cases_places
+    from . import node_cases_groups, node_cases_images, node_cases_places
 
     math_cases()
     color_cases()
     node_cases_places.add_cases()
+    node_cases_images.add_cases()
     node_cases_groups.add_cases()
 
 

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cases for nodes that ask where they are: vectors, coordinates, attributes, pictures, normals."""
+"""Cases for nodes that ask where they are: vectors, coordinates, attributes, normals."""
 
 from __future__ import annotations
-
-import numpy as np
 
 from .node_cases import CASES, case, enum_items, fill
 
@@ -11,7 +9,7 @@ from .node_cases import CASES, case, enum_items, fill
 def add_cases() -> None:
     vector_cases()
     input_cases()
-    texture_cases()
+    normal_cases()
 
 
 def vector_cases() -> None:
@@ -172,97 +170,7 @@ def attribute_cases() -> None:
         CASES[f"{title} uv map"] = lambda t: t.out("UVMap", from_instancer=True)
 
 
-def picture(name: str, width=5, height=4, alpha=False, floats=False, space=None):
-    import bpy
-
-    if name in bpy.data.images:
-        return bpy.data.images[name]
-    image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=floats)
-    if space:
-        image.colorspace_settings.name = space
-    pixels = np.random.default_rng(5).uniform(0.0, 1.0, (height, width, 4)).astype(np.float32)
-    if not alpha:
-        pixels[..., 3] = 1.0
-    image.pixels.foreach_set(pixels.ravel())
-    image.update()
-    image.pack()
-    return image
-
-
-def texture_cases() -> None:
-    def placed(t, scale=(1.7, 1.3, 1.0), move=(-0.3, -0.2, 0.1), kind="UV"):
-        return t.out("Mapping", {"Vector": t.coordinate(kind), "Scale": scale, "Location": move})
-
-    for interpolation in ("Linear", "Closest", "Cubic", "Smart"):
-        for extension in enum_items("TexImage", "extension"):
-
-            def build(t, interpolation=interpolation, extension=extension):
-                return t.out(
-                    "TexImage",
-                    {0: placed(t)},
-                    image=picture("Bytes"),
-                    interpolation=interpolation,
-                    extension=extension,
-                )
-
-            CASES[f"image {interpolation} {extension}"] = build
-    for projection in ("SPHERE", "TUBE"):
-        CASES[f"image {projection}"] = lambda t, projection=projection: t.out(
-            "TexImage",
-            {0: placed(t, kind="Generated")},
-            image=picture("Bytes"),
-            projection=projection,
-        )
-    for blend in (0.0, 0.3, 1.0):
-        CASES[f"image BOX {blend}"] = lambda t, blend=blend: t.out(
-            "TexImage",
-            {0: t.coordinate("Generated")},
-            image=picture("Bytes"),
-            projection="BOX",
-            projection_blend=blend,
-        )
-    for mode in ("STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE"):
-        for space in ("sRGB", "Non-Color"):
-            for output in (0, 1):
-
-                def build(t, mode=mode, space=space, output=output):
-                    image = picture(f"Alpha {mode} {space}", alpha=True, space=space)
-                    image.alpha_mode = mode
-                    node = t.node("TexImage", {0: placed(t)}, image=image)
-                    return node.outputs[output]
-
-                CASES[f"image alpha {mode} {space} {output}"] = build
-
-            def build(t, mode=mode, space=space):
-                image = picture(f"Alpha {mode} {space}", alpha=True, space=space)
-                image.alpha_mode = mode
-                node = t.node("TexImage", {0: placed(t)}, image=image)
-                return t.out(
-                    "Mix",
-                    {
-                        "Factor_Float": node.outputs[1],
-                        "A_Color": (0, 0, 0, 1),
-                        "B_Color": node.outputs[0],
-                    },
-                    "Result_Color",
-                    data_type="RGBA",
-                )
-
-            CASES[f"image alpha used {mode} {space}"] = build
-    CASES["image floats"] = lambda t: t.out(
-        "TexImage", {0: placed(t)}, image=picture("Floats", floats=True)
-    )
-    for kind in ("UV", "Generated"):
-        CASES[f"image over {kind}"] = lambda t, kind=kind: t.out(
-            "TexImage", {0: t.coordinate(kind)}, image=picture("Bytes")
-        )
-    CASES["image without vector"] = lambda t: t.out("TexImage", image=picture("Bytes"))
-    CASES["image missing"] = lambda t: t.out("TexImage")
-    for projection in ("EQUIRECTANGULAR", "MIRROR_BALL"):
-        CASES[f"environment {projection}"] = lambda t, projection=projection: t.out(
-            "TexEnvironment", {0: t.vector()}, image=picture("Bytes"), projection=projection
-        )
-
+def normal_cases() -> None:
     def normal_of(t, socket):
         """What a normal does, where it can be seen: its components, from 0 to 1."""
         return t.out(

@@ -78,6 +78,7 @@ def main(folder: Path, chosen: list[str]) -> None:
     from scenes import kit
     from scenes.driver import addon as addons
     from tests.images import node_cases
+    from tests.images.node_cases_images import FRAME
 
     addon = addons.load()
     node_cases.add_cases()
@@ -89,6 +90,7 @@ def main(folder: Path, chosen: list[str]) -> None:
         kit.neutral_settings(scene, 8, 8, 64)
         kit.world(scene)
         scene.collection.objects.link(bpy.data.objects.new("Other", None))
+        scene.frame_set(FRAME)
         part = names[start : start + COLUMNS * COLUMNS]
         build_sheet(part, node_cases.CASES)
         scene.render.image_settings.file_format = "OPEN_EXR"

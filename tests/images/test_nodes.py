@@ -14,6 +14,8 @@ from . import node_scenes
 # Of the range of a tile's values. Both engines throw their samples within a hundredth of a pixel,
 # so a tile differs by that much of its slope; the mean of SAMPLES leaves an eighth of it.
 TOLERANCE = 3e-3
+# Where Blender and Cycles do not use the same table of OpenColorIO's: so much more.
+LOOSE = {"image bytes in Khronos PBR Neutral sRGB": 1.5}
 # Pixels of a tile that an edge of a step may cross: there half of the samples lie on either side.
 ON_EDGES = 0.12
 
@@ -51,14 +53,17 @@ def test_every_node_is_cycles(sheets):
             allowed = int(ON_EDGES * off.size)
             kept = float(np.sort(off, axis=None)[-1 - allowed])
             largest[name] = kept
-            if not kept <= TOLERANCE:
+            if not kept <= TOLERANCE * LOOSE.get(name, 1.0):
                 wrong.append(f"{name}: {kept:.4f} of the range")
     worst = sorted(largest, key=largest.get, reverse=True)[:5]
     print(f"{len(largest)} cases; largest: {[(name, round(largest[name], 5)) for name in worst]}")
-    assert len(largest) > 380
+    assert len(largest) > 900
     assert wrong == []
 
 
-def test_nothing_is_said_but_the_missing_picture(sheets):
+def test_nothing_is_said_but_of_missing_pictures(sheets):
     said = [entry for sheet in sheets for entry in sheet["said"] if entry[0] != "INFO"]
-    assert [entry[1] for entry in said] == ["image missing"]
+    missing = {"image missing", "sequence 0 1 0 False", "sequence 100 1 50 False"}
+    missing |= {f"tiles True False {name}" for name in ("Closest", "Linear")}
+    assert sorted(entry[1] for entry in said) == sorted(missing)
+    assert all("missing" in entry[3] for entry in said)
