@@ -2,6 +2,8 @@
 //
 // The native module janus_core._core. It holds no OpenEXR: it lives in Blender's process, which has
 // its own.
+#include <algorithm>
+
 #include "bind.h"
 #include "janus/geometry/accel.h"
 #include "janus/shading/node_types.h"
@@ -24,6 +26,20 @@ const char* name_of(SocketType type) {
   return "CLOSURE";
 }
 
+bool leaves_out(const NodeDecl& decl, std::string_view input) {
+  return decl.closure && std::ranges::any_of(decl.closure->left_out, [&](const LeftOut& left_out) {
+           return left_out.input == input;
+         });
+}
+
+py::list names(std::span<const std::string_view> items) {
+  py::list result;
+  for (const std::string_view item : items) {
+    result.append(std::string(item));
+  }
+  return result;
+}
+
 py::list node_type_list() {
   py::list result;
   for (const NodeDecl& decl : node_types()) {
@@ -33,6 +49,7 @@ py::list node_type_list() {
       input["identifier"] = std::string(socket.identifier);
       input["type"] = name_of(socket.type);
       input["default"] = py::make_tuple(socket.value.x, socket.value.y, socket.value.z);
+      input["left_out"] = leaves_out(decl, socket.identifier);
       inputs.append(input);
     }
     py::dict node;
@@ -43,6 +60,12 @@ py::list node_type_list() {
       outputs.append(std::string(output));
     }
     node["outputs"] = outputs;
+    py::dict settings;
+    for (const EnumDecl& setting : decl.settings) {
+      settings[py::str(std::string(setting.property))] =
+          py::make_tuple(names(setting.items), names(setting.named));
+    }
+    node["settings"] = settings;
     result.append(node);
   }
   return result;
@@ -79,5 +102,7 @@ PYBIND11_MODULE(_core, m) {
         "Versions of the core, of Embree and of the tools that it was built with, as a dict.");
   m.def("node_types", &node_type_list,
         "The shader nodes that the core knows: a list of dicts with type (Blender's node.type), "
-        "inputs (identifier, type, default) and outputs.");
+        "inputs (identifier, type, default, and whether a value other than the default is left out "
+        "and named), outputs, and settings: for each property the items that are supported, and "
+        "those that are named where they matter.");
 }

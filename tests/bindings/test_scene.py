@@ -288,8 +288,65 @@ def test_node_types_are_listed():
     types = {node["type"]: node for node in janus_core.node_types()}
     assert {"BSDF_DIFFUSE", "BSDF_GLASS", "BSDF_GLOSSY", "EMISSION", "MIX_SHADER"} <= set(types)
     inputs = {i["identifier"]: i for i in types["BSDF_GLASS"]["inputs"]}
-    assert inputs["IOR"] == {"identifier": "IOR", "type": "FLOAT", "default": (1.5, 1.5, 1.5)}
+    ior = {"identifier": "IOR", "type": "FLOAT", "default": (1.5, 1.5, 1.5), "left_out": False}
+    assert inputs["IOR"] == ior
+    assert inputs["Thin Film Thickness"]["left_out"] is True
     assert types["BSDF_GLASS"]["outputs"] == ["BSDF"]
+    assert types["CLAMP"]["settings"] == {"clamp_type": (["MINMAX", "RANGE"], [])}
+
+
+def test_settings_that_are_not_known_are_named(builder):
+    inputs = {"Value": 0.25, "Value_001": 0.5}
+    math = {"name": "Sum", "type": "MATH", "inputs": inputs, "properties": {"operation": "NEW"}}
+    lamp = {"Color": [1, 1, 1, 1], "Strength": {"link": ["Sum", "Value"]}}
+    emission = {"name": "Lamp", "type": "EMISSION", "inputs": lamp, "properties": {}}
+    graph = {"nodes": [math, emission], "surface": {"link": ["Lamp", "Emission"]}}
+    builder.set_material("m", name="Paint", graph=graph)
+    (found,) = builder.commit().diagnostics
+    assert (found.material, found.node) == ("Paint", "Sum")
+    assert "operation NEW" in found.message and "ADD is used" in found.message
+
+
+def test_derived_attributes(builder):
+    """What is computed from edges; the core says what is missing."""
+    attributes = [{"key": "pointiness"}]
+    error = error_of(builder, "set_mesh", "mesh", name="M", **PLANE, attributes=attributes)
+    assert error.path == "attributes[pointiness]"
+    normals = {"key": "normal", "domain": "POINT", "values": np.tile([0.0, 0.0, 1.0], (4, 1))}
+    attributes += [normals, {"key": "random_per_island"}]
+    error = error_of(
+        builder, "set_mesh", "mesh", name="M", **PLANE, attributes=attributes, edges=[[0, 9]]
+    )
+    assert error.path == "edges[0]"
+    builder.set_mesh("mesh", name="M", **PLANE, attributes=attributes, edges=[[0, 1], [1, 2]])
+    assert builder.commit().diagnostics == []
+
+
+def test_instances_have_attributes_of_their_own(builder):
+    """A material that emits what each instance says."""
+    attribute = {
+        "name": "Own",
+        "type": "ATTRIBUTE",
+        "inputs": {},
+        "properties": {"attribute_type": "OBJECT", "attribute_name": "glow"},
+    }
+    lamp = {"Color": {"link": ["Own", "Color"]}, "Strength": 1.0}
+    emission = {"name": "Lamp", "type": "EMISSION", "inputs": lamp, "properties": {}}
+    graph = {"nodes": [attribute, emission], "surface": {"link": ["Lamp", "Emission"]}}
+    assert builder.set_material("m", name="Paint", graph=graph) == ["object:glow"]
+    builder.set_world(name="", graph=None)
+    for glow in (0.25, 0.75):
+        builder.set_instance(
+            "floor",
+            name="Floor",
+            mesh="mesh",
+            transform=IDENTITY,
+            materials=["m"],
+            attributes={"object:glow": (glow, 0.0, 0.0, 1.0)},
+        )
+        picture = render(builder.commit()).snapshot()
+        middle = picture[picture.shape[0] // 2, picture.shape[1] // 2, :3]
+        assert middle == pytest.approx([glow, 0.0, 0.0], abs=1e-6)
 
 
 def test_build_info():

@@ -40,17 +40,8 @@ void check_distribution(const NodeReader& node, std::string_view fallback) {
   }
 }
 
-// A parameter of a later version, with its neutral value.
-void check_neutral(const NodeReader& node, const char* socket, float neutral, const char* message) {
-  if (node.link(socket) || node.color(socket) != Rgb(neutral)) {
-    node.warn(message);
-  }
-}
-
-void check_thin_film(const NodeReader& node) {
-  check_neutral(node, "Thin Film Thickness", 0.0f,
-                "thin film is not supported yet; it is left out");
-}
+constexpr LeftOut kThinFilm = {"Thin Film Thickness", 0.0f,
+                               "thin film is not supported yet; it is left out"};
 
 // --- The closures --------------------------------------------------------------------------------
 
@@ -79,10 +70,9 @@ void add(const ClosureArguments& a, ShadingResult& out) {
            out);
 }
 
-void check(const NodeReader& node) {
-  check_neutral(node, "Anisotropy", 0.0f, "anisotropy is not supported yet; 0 is used");
-  check_distribution(node, "MULTI_GGX");
-}
+constexpr LeftOut kLeftOut[] = {{"Anisotropy", 0.0f, "anisotropy is not supported yet; 0 is used"}};
+
+void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }
 }  // namespace glossy
 
 namespace glass {
@@ -100,10 +90,9 @@ void add(const ClosureArguments& a, ShadingResult& out) {
            out);
 }
 
-void check(const NodeReader& node) {
-  check_thin_film(node);
-  check_distribution(node, "MULTI_GGX");
-}
+constexpr LeftOut kLeftOut[] = {kThinFilm};
+
+void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }
 }  // namespace glass
 
 namespace refraction {
@@ -230,24 +219,24 @@ void add(const ClosureArguments& a, ShadingResult& out) {
   add_lobe(a, diffuse, out);
 }
 
-void check(const NodeReader& node) {
-  check_distribution(node, "MULTI_GGX");
-  check_neutral(node, "Subsurface Weight", 0.0f,
-                "subsurface scattering is not supported yet; diffuse is used");
-  check_neutral(node, "Coat Weight", 0.0f, "coat is not supported yet; it is left out");
-  check_neutral(node, "Sheen Weight", 0.0f, "sheen is not supported yet; it is left out");
-  check_neutral(node, "Anisotropic", 0.0f, "anisotropy is not supported yet; 0 is used");
-  check_neutral(node, "Specular Tint", 1.0f, "specular tint is not supported yet; white is used");
-  check_thin_film(node);
-}
+constexpr LeftOut kLeftOut[] = {
+    {"Subsurface Weight", 0.0f, "subsurface scattering is not supported yet; diffuse is used"},
+    {"Coat Weight", 0.0f, "coat is not supported yet; it is left out"},
+    {"Sheen Weight", 0.0f, "sheen is not supported yet; it is left out"},
+    {"Anisotropic", 0.0f, "anisotropy is not supported yet; 0 is used"},
+    {"Specular Tint", 1.0f, "specular tint is not supported yet; white is used"},
+    kThinFilm,
+};
+
+void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }
 }  // namespace principled
 
 }  // namespace
 
 const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
-    kGlossyClosure{&glossy::add, {.lobes = 1}, &glossy::check},
-    kGlassClosure{&glass::add, {.transmits = true, .lobes = 1}, &glass::check},
-    kRefractionClosure{&refraction::add, {.transmits = true, .lobes = 1}, &refraction::check},
+    kGlossyClosure{&glossy::add, {.lobes = 1}, glossy::kLeftOut, &glossy::check},
+    kGlassClosure{&glass::add, {.transmits = true, .lobes = 1}, glass::kLeftOut, &glass::check},
+    kRefractionClosure{&refraction::add, {.transmits = true, .lobes = 1}, {}, &refraction::check},
     kTranslucentClosure{&translucent::add, {.transmits = true, .lobes = 1}},
     kTransparentClosure{&transparent::add, {.transparent = true}},
     kHoldoutClosure{&holdout::add, {.holds_out = true}},
@@ -261,6 +250,7 @@ const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
                         .alpha = {principled::Alpha, 1.0f},
                         .transmission = {principled::Transmission, 0.0f},
                         .parts = {{principled::Metallic, 0.0f}, {principled::Transmission, 0.0f}}},
+                       principled::kLeftOut,
                        &principled::check};
 
 const std::span<const SocketDecl> kDiffuseInputs(diffuse::kInputs), kGlossyInputs(glossy::kInputs),

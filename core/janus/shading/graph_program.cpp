@@ -32,6 +32,11 @@ void GraphCompiler::closure(const NodeReader& reader, Value share) {
   };
   const ClosureTraits& traits = step.decl->traits;
   program_.transmits |= traits.transmits && !neutral(traits.transmission);
+  for (const LeftOut& left_out : step.decl->left_out) {
+    if (reader.link(left_out.input) || reader.color(left_out.input) != Rgb(left_out.neutral)) {
+      reader.warn(std::string(left_out.message));
+    }
+  }
   if (step.decl->check) {
     step.decl->check(reader);
   }

@@ -13,6 +13,13 @@ const T* property_as(const Node& node, std::string_view identifier) {
   return it == node.properties.end() ? nullptr : std::get_if<T>(&it->second);
 }
 
+// As people read it.
+std::string setting_name(std::string_view property) {
+  std::string name(property);
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 }  // namespace
 
 void warn(Diagnostics& diagnostics, const std::string& material, const Node& node,
@@ -76,7 +83,21 @@ bool NodeReader::omitted(std::string_view identifier) const {
 
 std::string NodeReader::property(std::string_view identifier, std::string_view fallback) const {
   const auto* text = property_as<std::string>(node_, identifier);
-  return text ? *text : std::string(fallback);
+  if (!text) {
+    return std::string(fallback);
+  }
+  for (const EnumDecl& setting : decl_.settings) {
+    const auto has = [&](const auto& items) {
+      return std::ranges::find(items, *text) != items.end();
+    };
+    if (setting.property == identifier && !has(setting.items) && !has(setting.named)) {
+      const std::string used(setting.items[0]);
+      warn("its " + setting_name(identifier) + " " + *text + " is not supported yet; " + used +
+           " is used");
+      return used;
+    }
+  }
+  return *text;
 }
 
 bool NodeReader::flag(std::string_view identifier) const {

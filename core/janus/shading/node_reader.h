@@ -32,6 +32,7 @@ class NodeReader {
   // Neither a link nor a value.
   bool omitted(std::string_view identifier) const;
 
+  // Of a declared setting always one of its items.
   std::string property(std::string_view identifier, std::string_view fallback) const;
   bool flag(std::string_view identifier) const;
   float number_property(std::string_view identifier) const;           // 0: there is none

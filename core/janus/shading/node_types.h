@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "janus/math/vec.h"
 
@@ -47,6 +48,32 @@ struct SocketDecl {
       : identifier(id), type(t), value(x), shifted(at_shifted_points) {}
 };
 
+// A setting that is one of a list. What is in neither list is named, and the first item is used.
+struct EnumDecl {
+  std::string_view property;
+  std::span<const std::string_view> items;
+  std::span<const std::string_view> named = {};  // those that the node names where they matter
+};
+
+// A row of a table of modes, which have names; the first one for a name that is not there.
+template <class Mode, size_t N>
+const Mode& find_mode(const Mode (&modes)[N], std::string_view name) {
+  for (const Mode& mode : modes) {
+    if (mode.name == name) {
+      return mode;
+    }
+  }
+  return modes[0];
+}
+template <class Mode, size_t N>
+std::vector<std::string_view> names_of(const Mode (&modes)[N]) {
+  std::vector<std::string_view> names;
+  for (const Mode& mode : modes) {
+    names.push_back(mode.name);
+  }
+  return names;
+}
+
 // What a closure can add to a surface, besides lobes.
 struct ClosureTraits {
   // An input, by its position, and the value at which what it stands for is not there.
@@ -61,11 +88,19 @@ struct ClosureTraits {
   Input parts[2]{};  // each with a lobe
 };
 
-// A closure node: adds to a result what its parameters say; `check` names what it leaves out, where
-// that can be seen from the graph.
+// An input that a closure leaves out, unless it is neutral, and what is said then.
+struct LeftOut {
+  std::string_view input;
+  float neutral;
+  std::string_view message;
+};
+
+// A closure node: adds to a result what its parameters say; `check` names what else cannot be
+// rendered as asked, where that can be seen from the graph.
 struct ClosureDecl {
   void (*add)(const ClosureArguments&, ShadingResult&);
   ClosureTraits traits;
+  std::span<const LeftOut> left_out = {};
   void (*check)(const NodeReader&) = nullptr;
 };
 
@@ -79,6 +114,7 @@ struct NodeDecl {
   void (*emit)(NodeEmitter&) = nullptr;  // a node of values
   const ClosureDecl* closure = nullptr;
   MixOp mix = MixOp::None;
+  std::span<const EnumDecl> settings = {};
 };
 
 std::span<const NodeDecl> node_types();

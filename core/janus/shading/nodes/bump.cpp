@@ -65,6 +65,10 @@ vec3 blender_world_map(const Context& c, float strength, vec3 color) {
   return weaken(c.point, usable(c.point, decoded(color) * vec3(1, -1, -1)), strength);
 }
 
+constexpr std::string_view kSpaces[] = {"TANGENT", "OBJECT", "WORLD", "BLENDER_OBJECT",
+                                        "BLENDER_WORLD"};
+constexpr EnumDecl kSpace[] = {{"space", kSpaces}};
+
 void emit_normal_map(NodeEmitter& e) {
   const std::string space = e.property("space", "TANGENT");
   const Value strength = e.input("Strength"), color = e.input("Color");
@@ -133,7 +137,7 @@ void emit_bump(NodeEmitter& e) {
 
 std::span<const NodeDecl> normal_nodes() {
   static const NodeDecl kNodes[] = {
-      {"NORMAL_MAP", kMapInputs, kNormal, &emit_normal_map},
+      {"NORMAL_MAP", kMapInputs, kNormal, &emit_normal_map, nullptr, MixOp::None, kSpace},
       {"BUMP", kBumpInputs, kNormal, &emit_bump},
   };
   return kNodes;

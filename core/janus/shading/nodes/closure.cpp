@@ -17,21 +17,30 @@ constexpr SocketDecl kMix[] = {{"Fac", SocketType::Float, 0.5f},
 constexpr SocketDecl kAdd[] = {{"Shader", SocketType::Closure},
                                {"Shader_001", SocketType::Closure}};
 
+// Other distributions are named where a surface is rough.
+constexpr std::string_view kGgx[] = {"MULTI_GGX", "GGX"}, kOneGgx[] = {"GGX"},
+                           kOthers[] = {"BECKMANN", "ASHIKHMIN_SHIRLEY"};
+constexpr EnumDecl kDistribution[] = {{"distribution", kGgx, kOthers}},
+                   kRefraction[] = {{"distribution", kOneGgx, kOthers}};
+
 }  // namespace
 
 std::span<const NodeDecl> closure_nodes() {
   static const NodeDecl kNodes[] = {
       {"BSDF_DIFFUSE", kDiffuseInputs, kBsdf, nullptr, &kDiffuseClosure},
-      {"BSDF_GLOSSY", kGlossyInputs, kBsdf, nullptr, &kGlossyClosure},
-      {"BSDF_ANISOTROPIC", kGlossyInputs, kBsdf, nullptr, &kGlossyClosure},
-      {"BSDF_GLASS", kGlassInputs, kBsdf, nullptr, &kGlassClosure},
-      {"BSDF_REFRACTION", kRefractionInputs, kBsdf, nullptr, &kRefractionClosure},
+      {"BSDF_GLOSSY", kGlossyInputs, kBsdf, nullptr, &kGlossyClosure, MixOp::None, kDistribution},
+      {"BSDF_ANISOTROPIC", kGlossyInputs, kBsdf, nullptr, &kGlossyClosure, MixOp::None,
+       kDistribution},
+      {"BSDF_GLASS", kGlassInputs, kBsdf, nullptr, &kGlassClosure, MixOp::None, kDistribution},
+      {"BSDF_REFRACTION", kRefractionInputs, kBsdf, nullptr, &kRefractionClosure, MixOp::None,
+       kRefraction},
       {"BSDF_TRANSLUCENT", kTranslucentInputs, kBsdf, nullptr, &kTranslucentClosure},
       {"BSDF_TRANSPARENT", kTransparentInputs, kBsdf, nullptr, &kTransparentClosure},
       {"HOLDOUT", {}, kHoldout, nullptr, &kHoldoutClosure},
       {"EMISSION", kEmissionInputs, kEmission, nullptr, &kEmissionClosure},
       {"BACKGROUND", kEmissionInputs, kBackground, nullptr, &kEmissionClosure},
-      {"BSDF_PRINCIPLED", kPrincipledInputs, kBsdf, nullptr, &kPrincipledClosure},
+      {"BSDF_PRINCIPLED", kPrincipledInputs, kBsdf, nullptr, &kPrincipledClosure, MixOp::None,
+       kDistribution},
       {"MIX_SHADER", kMix, kShader, nullptr, nullptr, MixOp::Mix},
       {"ADD_SHADER", kAdd, kShader, nullptr, nullptr, MixOp::Add},
   };

@@ -117,6 +117,9 @@ constexpr SocketDecl kVectorInput[] = {{"Vector", Vector}};
 constexpr SocketDecl kImageInput[] = {{"Image", Color, 0.8f}};
 constexpr SocketDecl kSeparateInput[] = {{"Color", Color, 0.8f}};
 
+constexpr std::string_view kModels[] = {"RGB", "HSV", "HSL"};
+constexpr EnumDecl kModel[] = {{"mode", kModels}};
+
 Value combined(NodeEmitter& e, std::string_view x, std::string_view y, std::string_view z) {
   return e.emit(kCombine, {e.input(x), e.input(y), e.input(z)});
 }
@@ -146,8 +149,9 @@ std::span<const NodeDecl> color_nodes() {
       {"GAMMA", kGammaInputs, kColor, &emit_gamma},
       {"INVERT", kInvertInputs, kColor, &emit_invert},
       {"RGBTOBW", kColorInput, kValue, &emit_rgb_to_bw},
-      {"SEPARATE_COLOR", kSeparateInput, kChannels, &emit_separate_color},
-      {"COMBINE_COLOR", kChannelInputs, kColor, &emit_combine_color},
+      {"SEPARATE_COLOR", kSeparateInput, kChannels, &emit_separate_color, nullptr, MixOp::None,
+       kModel},
+      {"COMBINE_COLOR", kChannelInputs, kColor, &emit_combine_color, nullptr, MixOp::None, kModel},
       {"SEPXYZ", kVectorInput, kXyz, &emit_separate_xyz},
       {"COMBXYZ", kXyzInputs, kVector, &emit_combine_xyz},
       {"SEPRGB", kImageInput, kRgb, &emit_separate_rgb},

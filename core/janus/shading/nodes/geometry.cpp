@@ -61,6 +61,9 @@ void emit_found(NodeEmitter& e, const std::vector<float>& value) {
   e.output("Alpha", e.constant(value[3]));
 }
 
+constexpr std::string_view kKinds[] = {"GEOMETRY", "OBJECT", "INSTANCER", "VIEW_LAYER"};
+constexpr EnumDecl kKind[] = {{"attribute_type", kKinds}};
+
 void emit_attribute(NodeEmitter& e) {
   const std::string kind = e.property("attribute_type", "GEOMETRY");
   const std::string name = e.property("attribute_name");
@@ -144,6 +147,9 @@ void emit_geometry(NodeEmitter& e) {
 
 constexpr std::string_view kTangent[] = {"Tangent"};
 
+constexpr std::string_view kDirections[] = {"RADIAL", "UV_MAP"}, kAxes[] = {"Z", "X", "Y"};
+constexpr EnumDecl kDirection[] = {{"direction_type", kDirections}, {"axis", kAxes}};
+
 void emit_tangent(NodeEmitter& e) {
   if (e.property("direction_type", "RADIAL") == "UV_MAP") {
     const uint32_t slot = e.attribute("tangent:" + e.property("uv_map"));
@@ -162,10 +168,10 @@ void emit_tangent(NodeEmitter& e) {
 std::span<const NodeDecl> geometry_nodes() {
   static const NodeDecl kNodes[] = {
       {"UVMAP", {}, kUv, &emit_uv_map},
-      {"ATTRIBUTE", {}, kAttributeOutputs, &emit_attribute},
+      {"ATTRIBUTE", {}, kAttributeOutputs, &emit_attribute, nullptr, MixOp::None, kKind},
       {"VERTEX_COLOR", {}, kColorAlpha, &emit_color_attribute},
       {"NEW_GEOMETRY", {}, kGeometry, &emit_geometry},
-      {"TANGENT", {}, kTangent, &emit_tangent},
+      {"TANGENT", {}, kTangent, &emit_tangent, nullptr, MixOp::None, kDirection},
   };
   return kNodes;
 }

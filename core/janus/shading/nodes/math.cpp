@@ -76,19 +76,12 @@ const MathMode kMathModes[] = {
 };
 
 void emit_math(NodeEmitter& e) {
-  const std::string name = e.property("operation", "ADD");
-  const auto mode = std::find_if(std::begin(kMathModes), std::end(kMathModes),
-                                 [&](const MathMode& m) { return m.name == name; });
-  if (mode == std::end(kMathModes)) {
-    e.warn("the operation " + name + " is not supported yet; 0 is used");
-    e.output("Value", e.constant(0.0f));
-    return;
-  }
+  const Operation& operation = find_mode(kMathModes, e.property("operation", "ADD")).operation;
   // What the operation does not take is not asked for.
-  const int count = mode->operation.count;
+  const int count = operation.count;
   const Value a = e.input("Value");
   const Value b = count > 1 ? e.input("Value_001") : a, c = count > 2 ? e.input("Value_002") : a;
-  const Value result = e.emit(mode->operation, {a, b, c});
+  const Value result = e.emit(operation, {a, b, c});
   e.output("Value", e.flag("use_clamp") ? e.emit(pure<&clamp01>, {result}) : result);
 }
 
@@ -177,10 +170,7 @@ constexpr Operation kClampVector =
     pure<[](vec3 x, vec3 a, vec3 b) { return glm::clamp(x, glm::min(a, b), glm::max(a, b)); }>;
 
 void emit_map_range(NodeEmitter& e) {
-  const std::string name = e.property("interpolation_type", "LINEAR");
-  const auto mode = std::find_if(std::begin(kRangeModes), std::end(kRangeModes),
-                                 [&](const RangeMode& m) { return m.name == name; });
-  const RangeMode& used = mode == std::end(kRangeModes) ? kRangeModes[0] : *mode;
+  const RangeMode& used = find_mode(kRangeModes, e.property("interpolation_type", "LINEAR"));
   // Smooth steps stay inside by themselves.
   const bool clamp = e.flag("clamp") && (used.name == "LINEAR" || used.name == "STEPPED");
   if (e.property("data_type", "FLOAT") == "FLOAT_VECTOR") {
@@ -200,10 +190,17 @@ void emit_map_range(NodeEmitter& e) {
 }  // namespace
 
 std::span<const NodeDecl> math_nodes() {
+  static const auto kOperations = names_of(kMathModes), kInterpolations = names_of(kRangeModes);
+  static constexpr std::string_view kClamps[] = {"MINMAX", "RANGE"},
+                                    kData[] = {"FLOAT", "FLOAT_VECTOR"};
+  static const EnumDecl kMath[] = {{"operation", kOperations}},
+                        kClamp[] = {{"clamp_type", kClamps}},
+                        kRange[] = {{"interpolation_type", kInterpolations}, {"data_type", kData}};
   static const NodeDecl kNodes[] = {
-      {"MATH", kMathInputs, kValue, &emit_math},
-      {"CLAMP", kClampInputs, kResult, &emit_clamp},
-      {"MAP_RANGE", kMapRangeInputs, kMapRangeOutputs, &emit_map_range},
+      {"MATH", kMathInputs, kValue, &emit_math, nullptr, MixOp::None, kMath},
+      {"CLAMP", kClampInputs, kResult, &emit_clamp, nullptr, MixOp::None, kClamp},
+      {"MAP_RANGE", kMapRangeInputs, kMapRangeOutputs, &emit_map_range, nullptr, MixOp::None,
+       kRange},
   };
   return kNodes;
 }

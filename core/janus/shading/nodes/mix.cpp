@@ -127,14 +127,8 @@ constexpr Operation kMixNumbers =
 constexpr Operation kMixVectors = pure<[](vec3 t, vec3 a, vec3 b) { return a + t * (b - a); }>;
 
 Value blend(NodeEmitter& e, Value t, Value a, Value b) {
-  const std::string name = e.property("blend_type", "MIX");
-  for (const BlendMode& mode : kBlendModes) {
-    if (mode.name == name) {
-      return e.convert(e.emit(mode.operation, {t, a, b}), Color);
-    }
-  }
-  e.warn("the blend type " + name + " is not supported yet; Mix is used");
-  return e.convert(e.emit(kBlendModes[0].operation, {t, a, b}), Color);
+  const BlendMode& mode = find_mode(kBlendModes, e.property("blend_type", "MIX"));
+  return e.convert(e.emit(mode.operation, {t, a, b}), Color);
 }
 
 constexpr SocketDecl kInputs[] = {{"Factor_Float", Float, 0.5f}, {"Factor_Vector", Vector, 0.5f},
@@ -159,12 +153,10 @@ void emit_mix(NodeEmitter& e) {
   } else if (type == "VECTOR") {
     e.output("Result_Vector",
              e.emit(kMixVectors, {e.convert(t, Vector), e.input("A_Vector"), e.input("B_Vector")}));
-  } else if (type == "RGBA") {
+  } else {
     const Value c = blend(e, t, e.input("A_Color"), e.input("B_Color"));
     e.output("Result_Color",
              e.flag("clamp_result") ? e.convert(e.emit(kClampVector, {c}), Color) : c);
-  } else {
-    e.warn("mixing data of type " + type + " is not supported yet");
   }
 }
 
@@ -182,9 +174,15 @@ void emit_legacy_mix(NodeEmitter& e) {
 }  // namespace
 
 std::span<const NodeDecl> mix_nodes() {
+  static const auto kBlends = names_of(kBlendModes);
+  static constexpr std::string_view kData[] = {"FLOAT", "VECTOR", "RGBA"},
+                                    kFactors[] = {"UNIFORM", "NON_UNIFORM"};
+  static const EnumDecl kMix[] = {
+      {"data_type", kData}, {"factor_mode", kFactors}, {"blend_type", kBlends}};
+  static const EnumDecl kLegacy[] = {{"blend_type", kBlends}};
   static const NodeDecl kNodes[] = {
-      {"MIX", kInputs, kOutputs, &emit_mix},
-      {"MIX_RGB", kLegacyInputs, kLegacyOutputs, &emit_legacy_mix},
+      {"MIX", kInputs, kOutputs, &emit_mix, nullptr, MixOp::None, kMix},
+      {"MIX_RGB", kLegacyInputs, kLegacyOutputs, &emit_legacy_mix, nullptr, MixOp::None, kLegacy},
   };
   return kNodes;
 }

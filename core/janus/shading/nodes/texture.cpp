@@ -251,12 +251,22 @@ void emit_environment(NodeEmitter& e) {
                               Color));
 }
 
+constexpr std::string_view kInterpolations[] = {"Linear", "Closest", "Cubic", "Smart"},
+                           kExtensions[] = {"REPEAT", "EXTEND", "CLIP", "MIRROR"},
+                           kProjections[] = {"FLAT", "BOX", "SPHERE", "TUBE"},
+                           kSkies[] = {"EQUIRECTANGULAR", "MIRROR_BALL"};
+constexpr EnumDecl kImage[] = {{"interpolation", kInterpolations},
+                               {"extension", kExtensions},
+                               {"projection", kProjections}},
+                   kEnvironment[] = {{"interpolation", kInterpolations}, {"projection", kSkies}};
+
 }  // namespace
 
 std::span<const NodeDecl> texture_nodes() {
   static const NodeDecl kNodes[] = {
-      {"TEX_IMAGE", kImageInputs, kImageOutputs, &emit_image},
-      {"TEX_ENVIRONMENT", kEnvironmentInputs, kEnvironmentOutputs, &emit_environment},
+      {"TEX_IMAGE", kImageInputs, kImageOutputs, &emit_image, nullptr, MixOp::None, kImage},
+      {"TEX_ENVIRONMENT", kEnvironmentInputs, kEnvironmentOutputs, &emit_environment, nullptr,
+       MixOp::None, kEnvironment},
   };
   return kNodes;
 }

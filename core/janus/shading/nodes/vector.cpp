@@ -127,24 +127,15 @@ const VectorMode kVectorModes[] = {
 };
 
 void emit_vector_math(NodeEmitter& e) {
-  const std::string name = e.property("operation", "ADD");
-  for (const VectorMode& mode : kVectorModes) {
-    if (mode.name != name) {
-      continue;
-    }
-    const int vectors = mode.operation.count - (mode.scale ? 1 : 0);
-    const Value a = e.input("Vector"), b = vectors > 1 ? e.input("Vector_001") : a,
-                c = vectors > 2 ? e.input("Vector_002") : a;
-    const Value scale = mode.scale ? e.input("Scale") : a;
-    const Value result = !mode.scale    ? e.emit(mode.operation, {a, b, c})
-                         : vectors == 1 ? e.emit(mode.operation, {a, scale})
-                                        : e.emit(mode.operation, {a, b, scale});
-    e.output(result.type == Float ? "Value" : "Vector", result);
-    return;
-  }
-  e.warn("the operation " + name + " is not supported yet; 0 is used");
-  e.output("Vector", e.constant(vec3(0.0f)));
-  e.output("Value", e.constant(0.0f));
+  const VectorMode& mode = find_mode(kVectorModes, e.property("operation", "ADD"));
+  const int vectors = mode.operation.count - (mode.scale ? 1 : 0);
+  const Value a = e.input("Vector"), b = vectors > 1 ? e.input("Vector_001") : a,
+              c = vectors > 2 ? e.input("Vector_002") : a;
+  const Value scale = mode.scale ? e.input("Scale") : a;
+  const Value result = !mode.scale    ? e.emit(mode.operation, {a, b, c})
+                       : vectors == 1 ? e.emit(mode.operation, {a, scale})
+                                      : e.emit(mode.operation, {a, b, scale});
+  e.output(result.type == Float ? "Value" : "Vector", result);
 }
 
 // --- Vector Rotate -------------------------------------------------------------------------------
@@ -267,11 +258,24 @@ void emit_normal(NodeEmitter& e) {
 }  // namespace
 
 std::span<const NodeDecl> vector_nodes() {
+  static const auto kOperations = names_of(kVectorModes);
+  static constexpr std::string_view kMappings[] = {"POINT", "TEXTURE", "VECTOR", "NORMAL"},
+                                    kRotations[] = {"AXIS_ANGLE", "X_AXIS", "Y_AXIS", "Z_AXIS",
+                                                    "EULER_XYZ"},
+                                    kKinds[] = {"VECTOR", "POINT", "NORMAL"},
+                                    kSpaces[] = {"WORLD", "OBJECT", "CAMERA"};
+  static const EnumDecl kMapping[] = {{"vector_type", kMappings}},
+                        kMath[] = {{"operation", kOperations}},
+                        kRotate[] = {{"rotation_type", kRotations}},
+                        kTransform[] = {{"vector_type", kKinds},
+                                        {"convert_from", kSpaces},
+                                        {"convert_to", kSpaces}};
   static const NodeDecl kNodes[] = {
-      {"MAPPING", kMappingInputs, kVector, &emit_mapping},
-      {"VECT_MATH", kMathInputs, kMathOutputs, &emit_vector_math},
-      {"VECTOR_ROTATE", kRotateInputs, kVector, &emit_rotate},
-      {"VECT_TRANSFORM", kTransformInputs, kVector, &emit_transform},
+      {"MAPPING", kMappingInputs, kVector, &emit_mapping, nullptr, MixOp::None, kMapping},
+      {"VECT_MATH", kMathInputs, kMathOutputs, &emit_vector_math, nullptr, MixOp::None, kMath},
+      {"VECTOR_ROTATE", kRotateInputs, kVector, &emit_rotate, nullptr, MixOp::None, kRotate},
+      {"VECT_TRANSFORM", kTransformInputs, kVector, &emit_transform, nullptr, MixOp::None,
+       kTransform},
       {"NORMAL", kNormalInputs, kNormalOutputs, &emit_normal},
   };
   return kNodes;
