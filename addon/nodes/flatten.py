@@ -79,7 +79,10 @@ class _Flattener:
         while self._pending and len(self.nodes) < MAX_NODES:
             node, scope, name = self._pending.popleft()
             inputs = {s.identifier: self.input(s, scope) for s in node.inputs if s.enabled}
-            self._write(name, node.type, inputs, _properties(node))
+            properties = _properties(node)
+            if node.type == "CURVE_FLOAT" and self._is_folded(node, scope):
+                properties["extend"] = "HORIZONTAL"  # whatever it says: Blender computes it so
+            self._write(name, node.type, inputs, properties)
 
     def input(self, socket, scope: Scope):
         """What the graph says for one input: a link, a value, or None."""
@@ -106,20 +109,22 @@ class _Flattener:
         source = Source(end.type, [self._name(end.node, end.scope), end.output.identifier])
         if not end.passed or source.type == "SHADER":
             return source
-        if converts_constants_only() and not self._is_constant(end):
+        if converts_constants_only() and not self._is_folded(end.node, end.scope):
             return source
         for target in reversed(end.passed):
             source = self._converted(source, target)
         return source
 
-    def _is_constant(self, end: End, depth: int = 0) -> bool:
-        """Does Blender compute it before Cycles sees it?"""
-        if end.node is None or end.node.type == "VALUE":
+    def _is_folded(self, node, scope: Scope, depth: int = 0) -> bool:
+        """Does Blender compute the node before Cycles sees it?"""
+        if node.type == "VALUE":
             return True
-        if end.node.type not in FOLDED_NODES or depth > MAX_DEPTH:
+        if not converts_constants_only() or node.type not in FOLDED_NODES or depth > MAX_DEPTH:
             return False
-        ends = (self._links.follow(s, end.scope) for s in end.node.inputs if s.enabled)
-        return all(e is None or self._is_constant(e, depth + 1) for e in ends)
+        ends = (self._links.follow(s, scope) for s in node.inputs if s.enabled)
+        return all(
+            e is None or e.node is None or self._is_folded(e.node, e.scope, depth + 1) for e in ends
+        )
 
     def _converted(self, source: Source, target: str) -> Source:
         """The source as a socket of another type lets it pass."""

@@ -6,7 +6,9 @@ What cannot be resolved (a number of iterations that is no constant) stays a nod
 the core to name.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+
+import bpy
 
 from .convert import convert, plain, socket_value
 
@@ -60,27 +62,25 @@ class LinkReader:
         self._zones = {}
 
     def follow(self, socket, scope: Scope, depth: int = 0) -> End | None:
-        """What feeds the input; None: nothing is connected."""
-        passed = []
-        keeps_value = False  # has the socket at hand a value of its own?
+        """What feeds the input; None: nothing is connected, so that its own value counts."""
+        passed, unlinked = [], None
         for _ in range(MAX_STEPS):
             link = _active_link(socket)
             if link is None:
-                value = socket_value(socket) if keeps_value else None
-                return None if value is None else End(socket.type, value=value, passed=(*passed,))
+                return unlinked
             node, output = link.from_node, link.from_socket
             scope = self._leave_zones(node, scope)
             step = self._behind(node, output, scope, depth)
-            if step is None:
-                return None
             if isinstance(step, End):
-                return End(**{**step.__dict__, "passed": (*passed, *step.passed)})
+                return replace(step, passed=(*passed, *step.passed))
+            if step is None or step[0] is None:
+                return unlinked
             socket, scope = step
-            if socket is None:
-                return None
-            keeps_value = node.mute or node.type != "REROUTE"
-            if keeps_value and _active_link(socket) is not None or node.type == "REROUTE":
-                passed.append(socket.type)
+            if _has_own_value(node):
+                value = socket_value(socket)
+                end = End(socket.type, value=value, passed=(*passed,))
+                unlinked = None if value is None else end
+            passed.append(socket.type)
         return None
 
     def constant(self, socket, scope: Scope, depth: int = 0):
@@ -207,6 +207,13 @@ STEPS = {
     "NodeEvaluateClosure": LinkReader._evaluate_closure,
     "NodeClosureInput": LinkReader._closure_input,
 }
+
+
+def _has_own_value(node) -> bool:
+    """Does the value of its socket count where this node passes on an input without a link? From
+    Blender 5.0 on, muted nodes are links and nothing else.
+    """
+    return bpy.app.version < (5, 0, 0) if node.mute else node.type != "REROUTE"
 
 
 def zone_input(output_node):

@@ -95,6 +95,27 @@ def group_cases() -> None:
                 return use(t, outer, value).outputs[0]
 
             CASES[f"group value {kind} by {end}"] = build
+    for socket in SOCKETS:
+
+        def build(t, socket=socket):
+            group, start, stop = new_group([("In", socket)], [("Out", socket)])
+            group.links.new(start.outputs[0], stop.inputs[0])
+            node = use(t, group)
+            muted = t.node("Gamma", {"Color": (0.3, 0.5, 0.7, 1.0)})
+            muted.mute = True
+            t.tree.links.new(muted.outputs[0], node.inputs[0])
+            return node.outputs[0]
+
+        CASES[f"group {socket} of a muted node"] = build
+    for value in (-0.7, 0.3, 1.8):
+
+        def build(t, value=value):
+            node = t.node("FloatCurve", {"Value": value, "Factor": 0.8})
+            node.mapping.curves[0].points.new(0.3, 0.8)
+            node.mapping.update()
+            return node.outputs[0]
+
+        CASES[f"float curve of {value}"] = build
     for size in (2, 4):
 
         def build(t, size=size):

@@ -241,6 +241,9 @@ def film(path: Path) -> None:
 
 
 def texture_cases() -> None:
+    def nowhere(t):
+        return t.out("VectorMath", {0: t.vector(), 1: (0.0, 0.0, 0.0)}, operation="MULTIPLY")
+
     def placed(t, scale=(1.7, 1.3, 1.0), move=(-0.3, -0.2, 0.1), kind="UV"):
         return t.out("Mapping", {"Vector": t.coordinate(kind), "Scale": scale, "Location": move})
 
@@ -309,7 +312,17 @@ def texture_cases() -> None:
         )
     CASES["image without vector"] = lambda t: t.out("TexImage", image=picture("Bytes"))
     CASES["image missing"] = lambda t: t.out("TexImage")
-    for projection in ("EQUIRECTANGULAR", "MIRROR_BALL"):
-        CASES[f"environment {projection}"] = lambda t, projection=projection: t.out(
-            "TexEnvironment", {0: t.vector()}, image=picture("Bytes"), projection=projection
-        )
+    for projection in enum_items("TexEnvironment", "projection"):
+        for interpolation in enum_items("TexEnvironment", "interpolation"):
+            for place in ("", " nowhere"):
+
+                def build(t, projection=projection, interpolation=interpolation, place=place):
+                    return t.out(
+                        "TexEnvironment",
+                        {0: nowhere(t) if place else t.vector()},
+                        image=picture("Bytes"),
+                        projection=projection,
+                        interpolation=interpolation,
+                    )
+
+                CASES[f"environment {projection} {interpolation}{place}"] = build

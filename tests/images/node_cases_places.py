@@ -22,6 +22,10 @@ def vector_cases() -> None:
             return t.out("Mapping", inputs, vector_type=kind)
 
         CASES[f"mapping {kind}"] = build
+    for scale in ((0.0, 0.0, 0.0), (0.0, 1.0, 0.0)):
+        CASES[f"mapping by {scale}"] = lambda t, scale=scale: t.out(
+            "Mapping", {"Vector": t.vector(), "Location": (0.1, 0.2, 0.3), "Scale": scale}
+        )
     for operation in enum_items("VectorMath", "operation"):
 
         def build(t, operation=operation):
@@ -202,6 +206,41 @@ def normal_cases() -> None:
         )
     CASES["bump width value"] = lambda t: normal_of(t, bumps(t, t.out("Value")).outputs[0])
     CASES["bump width linked"] = lambda t: normal_of(t, bumps(t, t.parts()[0]).outputs[0])
+
+    CASES["bump width below zero"] = lambda t: normal_of(t, bumps(t, -0.4).outputs[0])
+    heights = {
+        **{
+            f"coordinate {n}": ("TexCoord", n)
+            for n in ("Normal", "Camera", "Window", "Generated", "Object")
+        },
+        **{
+            f"geometry {n}": ("NewGeometry", n)
+            for n in ("Normal", "Tangent", "Parametric", "Position")
+        },
+        "camera": ("CameraData", "View Vector"),
+        "tangent": ("Tangent", "Tangent"),
+        "fresnel": ("Fresnel", "Fac"),
+    }
+    for name, (kind, output) in heights.items():
+        for mesh in ("", "pieces "):
+
+            def build(t, kind=kind, output=output):
+                height = t.out("VectorMath", {0: t.out(kind, output=output), 1: (0.3, 0.5, 0.1)})
+                node = t.node("Bump", {"Height": height, "Distance": 0.5, "Strength": 0.8})
+                return normal_of(t, node.outputs[0])
+
+            CASES[f"{mesh}bump by {name}"] = build
+
+    @case("bump by a normal map")
+    def _(t):
+        mapped = t.out("NormalMap", {"Color": t.color()})
+        height = t.out("Math", {0: mapped}, operation="ADD")
+        return normal_of(t, t.out("Bump", {"Height": height, "Distance": 0.3}))
+
+    @case("bump of a constant")
+    def _(t):
+        height = t.out("Math", {0: 0.3, 1: 0.4}, operation="MULTIPLY")
+        return t.out("Bump", {"Height": height, "Normal": t.vector()})
 
     @case("bumps of several widths")
     def _(t):

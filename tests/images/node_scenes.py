@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A sheet of tiles, each with the Emission of one small node tree: pictures by Cycles and by Janus.
 
-`python node_scenes.py FOLDER` writes FOLDER/sheet_N_cycles.exr, FOLDER/sheet_N_janus.exr and
-FOLDER/sheets.json: for each sheet the names of its cases and what Janus said. One process makes
-them all. The filter is so narrow that every sample lies in the middle of its pixel.
+`python node_scenes.py FOLDER [NAME...]` writes FOLDER/sheet_N_cycles.exr, FOLDER/sheet_N_janus.exr
+and FOLDER/sheets.json: for each sheet the names of its cases and what Janus said. One process makes
+them all. The filter is so narrow that every sample lies in the middle of its pixel. `--random FIRST
+COUNT` takes the graphs of random_graphs.py, and writes FOLDER/sheet_N_again.exr as well: Cycles'
+with other samples.
 """
 
 from __future__ import annotations
@@ -77,12 +79,19 @@ def main(folder: Path, chosen: list[str]) -> None:
 
     from scenes import kit
     from scenes.driver import addon as addons
-    from tests.images import node_cases
+    from tests.images import node_cases, random_graphs
     from tests.images.node_cases_images import FRAME
 
     addon = addons.load()
-    node_cases.add_cases()
-    names = [n for n in node_cases.CASES if not chosen or any(c in n for c in chosen)]
+    pictures = [("cycles", "CYCLES", 0), ("janus", addons.ENGINE, 0)]
+    if chosen[:1] == ["--random"]:
+        cases = random_graphs.cases(int(chosen[1]), int(chosen[2]))
+        names = list(cases)
+        pictures.append(("again", "CYCLES", 1))
+    else:
+        node_cases.add_cases()
+        cases = node_cases.CASES
+        names = [n for n in cases if not chosen or any(c in n for c in chosen)]
     sheets = []
     for start in range(0, len(names), COLUMNS * COLUMNS):
         bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -92,7 +101,7 @@ def main(folder: Path, chosen: list[str]) -> None:
         scene.collection.objects.link(bpy.data.objects.new("Other", None))
         scene.frame_set(FRAME)
         part = names[start : start + COLUMNS * COLUMNS]
-        build_sheet(part, node_cases.CASES)
+        build_sheet(part, cases)
         scene.render.image_settings.file_format = "OPEN_EXR"
         scene.render.image_settings.color_depth = "32"
         scene.render.threads_mode, scene.render.threads = "FIXED", 2
@@ -100,9 +109,8 @@ def main(folder: Path, chosen: list[str]) -> None:
         scene.janus.pixel_filter_type, scene.janus.filter_width = "BLACKMAN_HARRIS", 0.01
         scene.janus.integrator = "PT"
         said = []
-        for engine in ("CYCLES", addons.ENGINE):
-            scene.render.engine = engine
-            kind = "cycles" if engine == "CYCLES" else "janus"
+        for kind, engine, seed in pictures:
+            scene.render.engine, scene.cycles.seed = engine, seed
             scene.render.filepath = str(folder / f"sheet_{len(sheets)}_{kind}.exr")
             bpy.ops.render.render(write_still=True)
         for entry, _ in addon.part("report").kept(scene.name_full):

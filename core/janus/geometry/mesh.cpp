@@ -149,6 +149,12 @@ vec3 Mesh::interpolated_normal(uint32_t primitive, vec2 b) const {
          b.y * normals_[t.normal[2]];
 }
 
+void Mesh::corner_normals(uint32_t primitive, vec3 (&normals)[3]) const {
+  for (int k = 0; k < 3; ++k) {
+    normals[k] = smooth() ? normals_[triangles_[primitive].normal[k]] : vec3(0.0f);
+  }
+}
+
 const AttributeDesc* Mesh::attribute(const std::string& key) const {
   const auto found = std::find_if(attributes_.begin(), attributes_.end(),
                                   [&](const AttributeDesc& a) { return a.key == key; });

@@ -32,6 +32,8 @@ class Mesh {
   const std::vector<vec3>& normals() const { return normals_; }  // of triangles; empty: flat
   // Of the corners' normals, or of the triangle; not of unit length.
   vec3 interpolated_normal(uint32_t primitive, vec2 barycentric) const;
+  // The normals of the corners, as long as they are given; nothing where it is flat.
+  void corner_normals(uint32_t primitive, vec3 (&normals)[3]) const;
   const AttributeDesc* attribute(const std::string& key) const;  // nullptr: it has none
   // Where the attributes of a triangle stand.
   TriangleIndices indices(uint32_t primitive) const;

@@ -87,6 +87,7 @@ ShadingPoint Surfaces::point(const SurfaceInteraction& hit, vec3 view) const {
     const auto vertex = [&](int k) { return mesh.positions()[point.triangle.vertices[k]]; };
     point.edge_u = linear * (vertex(1) - vertex(0));
     point.edge_v = linear * (vertex(2) - vertex(0));
+    mesh.corner_normals(hit.primitive, point.corner_normals);
     point.footprint = footprint_.width + footprint_.angle * glm::length(hit.p - footprint_.eye);
   }
   if (surface.program->tangents) {

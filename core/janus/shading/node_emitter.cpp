@@ -31,6 +31,11 @@ bool NodeEmitter::is_constant(Value value, float* x) const {
   return found != nullptr;
 }
 
+bool NodeEmitter::is_constant(Value value, vec3 x) const {
+  const vec3* found = compiler_.as_constant(value);
+  return found && *found == x;
+}
+
 std::optional<RayType> NodeEmitter::world_ray() const { return compiler_.world_ray(); }
 
 Value NodeEmitter::constant(float x) { return compiler_.constant(vec3(x), SocketType::Float); }

@@ -41,11 +41,15 @@ class NodeEmitter {
   std::optional<uint16_t> shifted_points();
   // Is the node itself looked at from a shifted point?
   bool shifted() const { return at_ != 0; }
+  // For what Cycles does not look for at shifted points: emits at the point itself.
+  NodeEmitter unshifted() const { return {compiler_, reader_, 0}; }
   bool linked(std::string_view identifier) const { return reader_.link(identifier) != nullptr; }
   // In the tree of a world: the type of the rays that look at it.
   std::optional<RayType> world_ray() const;
   // The value of an input that is a constant after folding.
   bool is_constant(Value value, float* x) const;
+  // Is it this one?
+  bool is_constant(Value value, vec3 x) const;
 
   std::string property(std::string_view name, std::string_view fallback = "") const {
     return reader_.property(name, fallback);

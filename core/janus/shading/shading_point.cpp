@@ -45,7 +45,7 @@ vec3 ShadingPoint::step(int axis) const {
 ShadingPoint ShadingPoint::shifted(int axis, float width) const {
   ShadingPoint result = *this;
   const vec3 d = width * step(axis);
-  result.p += d;
+  result.p += facing(d);  // from behind, Cycles' attributes go the other way than its positions
   // The barycentric coordinates of d: least squares in the basis of the edges.
   const float uu = dot(edge_u, edge_u), uv = dot(edge_u, edge_v), vv = dot(edge_v, edge_v);
   const float det = uu * vv - uv * uv;
@@ -53,6 +53,10 @@ ShadingPoint ShadingPoint::shifted(int axis, float width) const {
     const float du = dot(d, edge_u), dv = dot(d, edge_v);
     result.barycentric += vec2(vv * du - uv * dv, uu * dv - uv * du) / det;
   }
+  const vec2 b = result.barycentric;
+  result.object_normal =
+      (1.0f - b.x - b.y) * corner_normals[0] + b.x * corner_normals[1] + b.y * corner_normals[2];
+  result.moved = true;
   return result;
 }
 

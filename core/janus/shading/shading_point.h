@@ -54,6 +54,9 @@ struct ShadingPoint {
   float footprint;  // metres
   // The interpolated normal in object space, as long as it comes out: what tangents go with.
   vec3 object_normal;
+  // For shifted(): the normals of the corners in object space, or nothing.
+  vec3 corner_normals[3];
+  bool moved;  // by shifted()
 
   bool backfacing() const { return dot(view, ng) < 0.0f; }
   // Cycles' normals look at the viewer.

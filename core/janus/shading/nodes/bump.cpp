@@ -78,8 +78,8 @@ void emit_normal_map(NodeEmitter& e) {
                                : space == "BLENDER_OBJECT" ? by_side<&blender_object_map>
                                : space == "WORLD"          ? by_side<&world_map>
                                                            : by_side<&blender_world_map>;
-  e.output("Normal", e.emit(operation, {strength, color},
-                            tangent ? e.attribute("tangent:" + e.property("uv_map")) : 0));
+  const uint32_t slot = tangent ? e.attribute("tangent:" + e.property("uv_map")) : 0;
+  e.output("Normal", e.unshifted().emit(operation, {strength, color}, slot));
 }
 
 // --- Bump ----------------------------------------------------------------------------------------
@@ -96,13 +96,13 @@ constexpr SocketDecl kBumpInputs[] = {{"Strength", Float, 1.0f},
 vec3 bump(const Context& c, float strength, float distance, float width, float height,
           float height_x, float height_y, vec3 normal) {
   const vec3 n = c.point.facing(normal);  // a hill is a hill from behind too
-  const vec3 dx = width * c.point.step(0), dy = width * c.point.step(1);
+  const vec3 dx = c.point.step(0), dy = c.point.step(1);
   const vec3 rx = cross(dy, n), ry = cross(n, dx);
   const float det = dot(dx, rx);
   const vec3 slope = (height_x - height) * rx + (height_y - height) * ry;
   distance = c.data ? -distance : distance;
   const vec3 turned =
-      safe_normalize(std::abs(det) * n - distance * (det < 0.0f ? -1.0f : 1.0f) * slope);
+      safe_normalize(width * std::abs(det) * n - distance * (det < 0.0f ? -1.0f : 1.0f) * slope);
   strength = std::max(strength, 0.0f);
   const vec3 mixed = safe_normalize(strength * turned + (1.0f - strength) * n);
   return is_black(mixed) || !is_finite(mixed) ? normal : c.point.facing(mixed);
@@ -110,7 +110,7 @@ vec3 bump(const Context& c, float strength, float distance, float width, float h
 
 void emit_bump(NodeEmitter& e) {
   const Value n = e.input("Normal");
-  if (!e.linked("Height")) {
+  if (e.is_constant(e.input("Height"), nullptr)) {  // then the normal stays as long as it is
     e.output("Normal", n);
     return;
   }

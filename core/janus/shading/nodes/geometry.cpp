@@ -126,11 +126,15 @@ constexpr Operation kRadialTangent[] = {
     }>};
 constexpr Operation kTangentOnSurface = by_side<&on_surface>;
 
+Value radial_tangent(NodeEmitter& e, int axis) {
+  NodeEmitter here = e.unshifted();
+  return here.emit(kRadialTangent[axis], {here.emit(kAttribute, {}, e.attribute("generated"))});
+}
+
 void emit_geometry(NodeEmitter& e) {
   e.output("Position", e.emit(kPosition, {}));
   e.output("Normal", e.emit(kFacingNormal, {}));
-  e.output("Tangent",
-           e.emit(kRadialTangent[2], {e.emit(kAttribute, {}, e.attribute("generated"))}));
+  e.output("Tangent", radial_tangent(e, 2));
   e.output("True Normal", e.emit(kTrueNormal, {}));
   e.output("Incoming", e.emit(kIncoming, {}));
   e.output("Parametric", e.emit(kParametric, {}));
@@ -153,14 +157,12 @@ constexpr EnumDecl kDirection[] = {{"direction_type", kDirections}, {"axis", kAx
 void emit_tangent(NodeEmitter& e) {
   if (e.property("direction_type", "RADIAL") == "UV_MAP") {
     const uint32_t slot = e.attribute("tangent:" + e.property("uv_map"));
-    e.output("Tangent", e.emit(kTangentOnSurface, {e.emit(kAttribute, {}, slot)}));
+    NodeEmitter here = e.unshifted();
+    e.output("Tangent", here.emit(kTangentOnSurface, {here.emit(kAttribute, {}, slot)}));
     return;
   }
   const std::string axis = e.property("axis", "Z");
-  e.output("Tangent", e.emit(kRadialTangent[axis == "X"   ? 0
-                                            : axis == "Y" ? 1
-                                                          : 2],
-                             {e.emit(kAttribute, {}, e.attribute("generated"))}));
+  e.output("Tangent", radial_tangent(e, axis == "X" ? 0 : axis == "Y" ? 1 : 2));
 }
 
 }  // namespace

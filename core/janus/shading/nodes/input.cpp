@@ -23,6 +23,9 @@ constexpr std::string_view kCoordinates[] = {"Generated", "Normal", "UV",       
                                              "Camera",    "Window", "Reflection"};
 
 constexpr Operation kObjectNormal = by_side<[](const Context& c) {
+  if (c.point.moved && !is_black(c.point.object_normal)) {
+    return c.point.facing(safe_normalize(c.point.object_normal));
+  }
   // Normals go to the object by the transpose of its matrix.
   return safe_normalize(glm::transpose(mat3(c.point.object->to_world)) *
                         c.point.facing(c.point.ns));
@@ -93,7 +96,7 @@ void emit_object(NodeEmitter& e) {
 constexpr std::string_view kCamera[] = {"View Vector", "View Z Depth", "View Distance"};
 
 void emit_camera(NodeEmitter& e) {
-  const Value p = e.emit(kCameraPoint, {});
+  const Value p = e.unshifted().emit(kCameraPoint, {});
   e.output("View Vector", e.emit(pure<&safe_normalize>, {p}));
   e.output("View Z Depth", e.emit(pure<[](vec3 v) { return v.z; }>, {p}));
   e.output("View Distance", e.emit(pure<[](vec3 v) { return glm::length(v); }>, {p}));

@@ -230,7 +230,7 @@ constexpr SocketDecl kEnvironmentInputs[] = {{"Vector", Vector, Implicit::Positi
 constexpr std::string_view kEnvironmentOutputs[] = {"Color"};
 
 vec3 look_lat_long(const Context& c, vec3 d) {
-  return vec3(picture(c, direction_to_latlong(safe_normalize(d))));
+  return vec3(picture(c, is_black(d) ? vec2(0.0f) : direction_to_latlong(safe_normalize(d))));
 }
 vec3 look_mirror_ball(const Context& c, vec3 d) {
   d = safe_normalize(d);

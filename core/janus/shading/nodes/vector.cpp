@@ -43,8 +43,12 @@ void emit_mapping(NodeEmitter& e) {
                                : type == "VECTOR" ? pure<&map_vector>
                                : type == "NORMAL" ? pure<&map_normal>
                                                   : pure<&map_point>;
-  e.output("Vector", e.emit(operation, {e.input("Vector"), e.input("Location"), e.input("Rotation"),
-                                        e.input("Scale")}));
+  // Cycles takes what is scaled to nothing for nothing, wherever it is moved.
+  const Value scale = e.input("Scale");
+  const bool nothing = e.is_constant(scale, vec3(0.0f));
+  e.output("Vector", nothing ? e.constant(vec3(0.0f))
+                             : e.emit(operation, {e.input("Vector"), e.input("Location"),
+                                                  e.input("Rotation"), scale}));
 }
 
 // --- Vector Math ---------------------------------------------------------------------------------
