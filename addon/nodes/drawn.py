@@ -35,6 +35,19 @@ def _curves(node) -> dict:
     return {"table": table, "range": [first, last], "extend": mapping.extend}
 
 
+def constant_curves(node, value) -> dict:
+    """The table of a node of curves, all of it what they exactly make of this value."""
+    mapping = node.mapping
+    mapping.initialize()
+    numbers = value[:3] if isinstance(value, list) else [value]
+    if node.type == "CURVE_RGB":  # the combined curve comes first
+        numbers = [mapping.evaluate(mapping.curves[3], x) for x in numbers]
+    found = [mapping.evaluate(c, x) for c, x in zip(mapping.curves, numbers, strict=False)]
+    if node.type == "CURVE_FLOAT" and mapping.use_clip:  # which Cycles does not know
+        found = [min(max(y, mapping.clip_min_y), mapping.clip_max_y) for y in found]
+    return {"table": found * TABLE_SIZE}
+
+
 def _direction(node) -> dict:
     return {"direction": list(node.outputs["Normal"].default_value)}
 

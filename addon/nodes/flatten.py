@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import bpy
 
 from .convert import TRIPLES, conversion_node, convert, plain, socket_value
-from .drawn import drawn_properties
+from .drawn import constant_curves, drawn_properties
 from .links import CONSTANT_NODES, End, LinkReader, Scope
 
 # Property types that are plain data; pointers (ramps, curves) need code of their own.
@@ -30,6 +30,9 @@ FOLDED_NODES = {
     *("BLACKBODY", "CLAMP", "COMBXYZ", "CURVE_FLOAT", "CURVE_RGB", "CURVE_VEC", "GAMMA"),
     *("MAP_RANGE", "MATH", "MIX", "MIX_RGB", "SEPXYZ", "VALTORGB", "VECTOR_ROTATE", "VECT_MATH"),
 }
+
+
+DIFFERENT_FOLDED = {"CURVE_FLOAT", "CURVE_RGB", "CURVE_VEC", "MAP_RANGE"}
 
 
 @dataclass(frozen=True)
@@ -80,8 +83,8 @@ class _Flattener:
             node, scope, name = self._pending.popleft()
             inputs = {s.identifier: self.input(s, scope) for s in node.inputs if s.enabled}
             properties = _properties(node)
-            if node.type == "CURVE_FLOAT" and self._is_folded(node, scope):
-                properties["extend"] = "HORIZONTAL"  # whatever it says: Blender computes it so
+            if node.type in DIFFERENT_FOLDED and self._is_folded(node, scope):
+                properties |= self._folded(node, scope)
             self._write(name, node.type, inputs, properties)
 
     def input(self, socket, scope: Scope):
@@ -125,6 +128,16 @@ class _Flattener:
         return all(
             e is None or e.node is None or self._is_folded(e.node, e.scope, depth + 1) for e in ends
         )
+
+    def _folded(self, node, scope: Scope) -> dict:
+        """What is different where Blender computes the node: curves are no tables, and have limits;
+        an empty range has another value.
+        """
+        if node.type == "MAP_RANGE":
+            return {"folded": True}
+        changed = {"extend": "HORIZONTAL"} if node.type == "CURVE_FLOAT" else {}
+        value = self._links.constant(node.inputs[1], scope)
+        return changed if value is None else changed | constant_curves(node, value)
 
     def _converted(self, source: Source, target: str) -> Source:
         """The source as a socket of another type lets it pass."""

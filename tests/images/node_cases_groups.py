@@ -107,6 +107,39 @@ def group_cases() -> None:
             return node.outputs[0]
 
         CASES[f"group {socket} of a muted node"] = build
+    for value in (0.3, 1.8):
+        for kind, socket in (("RGBCurve", "Color"), ("VectorCurve", "Vector")):
+
+            def build(t, value=value, kind=kind, socket=socket):
+                numbers = (value, 0.2, 0.7, 1.0)[: 4 if kind == "RGBCurve" else 3]
+                node = t.node(kind, {socket: numbers, "Fac": 0.8})
+                for curve in node.mapping.curves:
+                    curve.points.new(0.3, 0.8)
+                node.mapping.update()
+                return node.outputs[0]
+
+            CASES[f"{kind} of {value}"] = build
+    for value in (0.3, None):
+        for kind in ("FLOAT", "FLOAT_VECTOR"):
+
+            def build(t, value=value, kind=kind):
+                node = t.node("MapRange", data_type=kind)
+                inputs = [s for s in node.inputs if s.enabled]
+                numbers = (value, 0.7, 0.7, -0.25, 0.9)
+                for socket, x in zip(inputs, numbers, strict=True):
+                    if x is None:
+                        t.tree.links.new(t.parts()[0], socket)
+                    else:
+                        socket.default_value = x if kind == "FLOAT" else (x, x, x)
+                return next(s for s in node.outputs if s.enabled)
+
+            CASES[f"empty range {kind} of {value}"] = build
+    for name in ("Fresnel", "LayerWeight"):
+
+        def build(t, name=name):
+            return t.out(name, {"Normal": t.out("CombineXYZ", {0: 0.3, 1: 0.5, 2: 0.4})})
+
+        CASES[f"{name} of a constant normal"] = build
     for value in (-0.7, 0.3, 1.8):
 
         def build(t, value=value):

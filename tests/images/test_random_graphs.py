@@ -17,7 +17,15 @@ COUNT = 2048 if "JANUS_FULL" in os.environ else 256
 # Sheets are written as floats around LIFT: that much of a value is lost.
 FLOOR = 0.05
 # What Janus knows to be different, by seed: why.
-KNOWN: dict[int, str] = {}
+NO_LENGTH = "Cycles' Normal node divides by the length of a vector that has none"
+KNOWN = {
+    251: NO_LENGTH,
+    812: "a Bump without height, of whose normal Cycles learns late that it is a constant",
+    1518: NO_LENGTH,
+    1572: NO_LENGTH,
+    1795: NO_LENGTH,
+    1862: "an infinite limit of a Map Range",
+}
 
 
 def rendered(folder, first: int, count: int) -> list[dict]:

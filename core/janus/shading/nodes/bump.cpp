@@ -7,6 +7,7 @@
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/families.h"
 #include "janus/shading/nodes/rotation.h"
+#include "janus/shading/point_reads.h"
 
 namespace janus {
 
@@ -110,8 +111,9 @@ vec3 bump(const Context& c, float strength, float distance, float width, float h
 
 void emit_bump(NodeEmitter& e) {
   const Value n = e.input("Normal");
-  if (e.is_constant(e.input("Height"), nullptr)) {  // then the normal stays as long as it is
-    e.output("Normal", n);
+  // Then Cycles leaves the node out: the normal stays as long as it is, but for a constant one.
+  if (e.is_constant(e.input("Height"), nullptr)) {
+    e.output("Normal", e.is_constant(n, nullptr) ? e.emit(kFacingNormal, {}) : n);
     return;
   }
   if (e.shifted()) {

@@ -169,6 +169,9 @@ const RangeMode kRangeModes[] = {
 constexpr Operation kClampVector =
     pure<[](vec3 x, vec3 a, vec3 b) { return glm::clamp(x, glm::min(a, b), glm::max(a, b)); }>;
 
+constexpr Operation kUnlessEmpty =
+    pure<[](float x, float from_low, float from_high) { return from_low != from_high ? x : 0.0f; }>;
+
 void emit_map_range(NodeEmitter& e) {
   const RangeMode& used = find_mode(kRangeModes, e.property("interpolation_type", "LINEAR"));
   // Smooth steps stay inside by themselves.
@@ -182,8 +185,12 @@ void emit_map_range(NodeEmitter& e) {
     return;
   }
   const Value low = e.input("To Min"), high = e.input("To Max");
-  const Value result = e.emit(used.scalar, {e.input("Value"), e.input("From Min"),
-                                            e.input("From Max"), low, high, e.input("Steps")});
+  const Value from_low = e.input("From Min"), from_high = e.input("From Max");
+  Value result =
+      e.emit(used.scalar, {e.input("Value"), from_low, from_high, low, high, e.input("Steps")});
+  if (!e.flag("folded")) {  // by Blender, which maps an empty range to its lower end
+    result = e.emit(kUnlessEmpty, {result, from_low, from_high});
+  }
   e.output("Result", clamp ? e.emit(kClampRange, {result, low, high}) : result);
 }
 
