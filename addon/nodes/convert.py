@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Socket values as plain Python, and Blender's implicit conversions between their types."""
 
+import bpy
+
 # Luminance weights of linear Rec.709, which Blender uses where a colour feeds a number.
 LUMINANCE = (0.2126, 0.7152, 0.0722)
+
+# Before, Cycles took them for integers.
+HAS_BOOLEANS = bpy.app.version >= (5, 0, 0)
 
 NUMBERS = ("VALUE", "INT", "BOOLEAN")
 TRIPLES = ("VECTOR", "ROTATION")
@@ -36,6 +41,7 @@ def convert(value, source: str, target: str):
     """Converts a constant from one socket type to another as Cycles does; None if impossible."""
     if value is None or source == target:
         return value
+    target = "INT" if target == "BOOLEAN" and not HAS_BOOLEANS else target
     if target in ("INT", "BOOLEAN", "VALUE"):
         if target == "BOOLEAN" and source in TRIPLES:
             return any(value)
@@ -58,6 +64,7 @@ def conversion_node(source: str, target: str, link) -> tuple[str, dict, dict, st
     """A node of values that does what convert() does: its type, inputs, properties and output; None
     where no conversion can be seen. From a vector to a boolean it is the first of two: its length.
     """
+    target = "INT" if target == "BOOLEAN" and not HAS_BOOLEANS else target
     if {source, target} - {"RGBA", *NUMBERS, *TRIPLES} or source == target:
         return None
     if source in NUMBERS and target not in ("INT", "BOOLEAN"):

@@ -13,6 +13,8 @@ import bpy
 from .convert import convert, plain, socket_value
 
 MAX_STEPS = 10_000  # a cycle through broken links must end, and so must a zone
+# From Blender 5.0 on, the value of the next socket counts where nothing is behind a muted node.
+MUTED_ARE_LINKS = bpy.app.version >= (5, 0, 0)
 MAX_DEPTH = 50  # of bundles in bundles, menus by menus
 CONSTANT_NODES = {"RGB", "VALUE"}
 ZONE_INPUTS = {"REPEAT_INPUT", "NodeClosureInput"}
@@ -76,8 +78,9 @@ class LinkReader:
             if step is None or step[0] is None:
                 return unlinked
             socket, scope = step
-            if _has_own_value(node):
-                value = socket_value(socket)
+            if node.type != "REROUTE" and not (node.mute and MUTED_ARE_LINKS):
+                # What muted nodes pass on is nothing, not the value of their socket.
+                value = convert(0.0, "VALUE", socket.type) if node.mute else socket_value(socket)
                 end = End(socket.type, value=value, passed=(*passed,))
                 unlinked = None if value is None else end
             passed.append(socket.type)
@@ -207,13 +210,6 @@ STEPS = {
     "NodeEvaluateClosure": LinkReader._evaluate_closure,
     "NodeClosureInput": LinkReader._closure_input,
 }
-
-
-def _has_own_value(node) -> bool:
-    """Does the value of its socket count where this node passes on an input without a link? From
-    Blender 5.0 on, muted nodes are links and nothing else.
-    """
-    return bpy.app.version < (5, 0, 0) if node.mute else node.type != "REROUTE"
 
 
 def zone_input(output_node):
