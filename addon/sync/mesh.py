@@ -35,7 +35,9 @@ def mesh_arrays(mesh, slots: int, attributes, log) -> dict | None:
 
 
 def _attributes(mesh, triangle_count: int, keys, log) -> dict:
-    faces = triangle_faces(mesh, triangle_count)
+    if not keys:
+        return {}
+    faces = triangle_faces(mesh, triangle_count)  # first: tangents take the mesh apart
     found = mesh_attributes(mesh, keys, log)
     by_face = any(attribute.get("domain", "FACE") == "FACE" for attribute in found)
     return {"attributes": found, "faces": faces if by_face else None} if found else {}
