@@ -37,9 +37,9 @@ class InstanceSync:
             if obj.type == "MESH":
                 self._surface(instance)
             elif obj.type == "LIGHT":
-                sync_light(
-                    self._builder, self._next_key("light"), obj, instance.matrix_world, self._log
-                )
+                key = self._next_key("light")
+                matrix = instance.matrix_world
+                sync_light(self._builder, key, obj, matrix, self._log, self._materials.images)
             elif obj.type in UNSUPPORTED_TYPES:
                 self._log.warning(UNSUPPORTED_TYPES[obj.type], object=obj.name)
 

@@ -5,16 +5,23 @@ import bpy
 import numpy as np
 
 from ..nodes import flatten_tree
+from .image import send_images
 from .visibility import LIGHT_RAYS, seen_by
 
 
-def sync_light(builder, key: str, obj, matrix, log) -> None:
-    """Sends the light object `obj` at `matrix`; portals, which emit nothing, are left out."""
+def sync_light(builder, key: str, obj, matrix, log, images: set) -> None:
+    """Sends the light object `obj` at `matrix`; portals, which emit nothing, are left out.
+
+    `images`: the keys of the pictures that the builder has.
+    """
     light = obj.data
     if getattr(getattr(light, "cycles", None), "is_portal", False):
         log.info("portals are not used for sampling yet", object=obj.name)
         return
     check_light(obj, log)
+    graph = flatten_tree(light.node_tree) if has_nodes(light) else None
+    if graph is not None:
+        send_images(builder, graph, obj, log, images)
     builder.set_light(
         key,
         name=obj.name,
@@ -26,7 +33,7 @@ def sync_light(builder, key: str, obj, matrix, log) -> None:
         exposure=getattr(light, "exposure", 0.0),
         cast_shadow=light.use_shadow,
         max_bounces=getattr(getattr(light, "cycles", None), "max_bounces", 1024),
-        graph=flatten_tree(light.node_tree) if has_nodes(light) else None,
+        graph=graph,
         **shape(light),
         **seen_by(obj, LIGHT_RAYS),
     )

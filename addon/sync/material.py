@@ -13,7 +13,7 @@ class MaterialSync:
         self._builder = builder
         self._override = override
         self._log = log
-        self._images = set()  # keys of what has been sent
+        self.images = set()  # keys of what has been sent
         self._sent = {}  # key -> keys of the mesh attributes that it reads
 
     def attributes(self, keys) -> frozenset[str]:
@@ -33,7 +33,7 @@ class MaterialSync:
         key = f"material:{material.name_full}"
         if key not in self._sent:
             graph = self._graph(material)
-            send_images(self._builder, graph, material, self._log, self._images)
+            send_images(self._builder, graph, material, self._log, self.images)
             self._sent[key] = self._builder.set_material(
                 key,
                 name=material.name,

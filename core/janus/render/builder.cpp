@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "janus/light/lamps.h"
+#include "janus/render/lamp.h"
 #include "janus/render/world.h"
 #include "janus/shading/compiler.h"
 #include "janus/util/error.h"
@@ -11,15 +11,6 @@
 namespace janus {
 
 namespace {
-
-bool is_finite(const mat4& m) {
-  for (int i = 0; i < 4; ++i) {
-    if (!janus::is_finite(vec3(m[i]))) {
-      return false;
-    }
-  }
-  return true;
-}
 
 // From the world to the camera, which looks along +z in Cycles; panoramas look along +x, with +z
 // up.
@@ -135,13 +126,18 @@ class Commit {
     }
   }
 
-  void add_lamps(const std::map<std::string, LightDesc>& lights) {
+  void add_lamps(const std::map<std::string, LightDesc>& lights, const ImageMap& images,
+                 const CameraDesc& camera) {
+    const LampSurroundings around{to_camera(camera), surroundings(),
+                                  [&](const LightDesc& lamp) { return surfaces_near(lamp); }};
     for (const auto& [key, desc] : lights) {
       LightDesc lamp = desc;
       if (lamp.name.empty()) {
         lamp.name = key;
       }
-      add_lamp(lamp);
+      for (auto& light : make_lamp(std::move(lamp), images, around, scene_.diagnostics)) {
+        add_light(std::move(light));
+      }
     }
   }
 
@@ -171,16 +167,6 @@ class Commit {
     scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
   }
 
-  // What the program of a lamp emits, which should be the same everywhere.
-  Rgb everywhere(const Program& program, const std::string& name) {
-    if (!program.constant()) {
-      scene_.diagnostics.push_back({Severity::Warning, "", name, "",
-                                    "light that varies with place or direction is not supported "
-                                    "yet for lamps; it is left out"});
-    }
-    return program.emission;
-  }
-
   uint32_t find_program(const std::string& instance, const std::string& material) {
     const auto it = program_index_.find(material);
     if (it == program_index_.end()) {
@@ -194,91 +180,6 @@ class Commit {
       scene_.lamps.push_back(scene_.lights.size());
     }
     scene_.lights.push_back(std::move(light));
-  }
-
-  void add_lamp(LightDesc& lamp) {
-    if (!is_finite(lamp.transform)) {
-      warn(lamp.name, "its transform is not finite; the light is left out");
-      return;
-    }
-    Rgb strength(1.0f);
-    if (lamp.graph) {
-      strength = everywhere(compile(*lamp.graph, lamp.name, {}, scene_.diagnostics), lamp.name);
-    }
-    const Rgb power = lamp_power(lamp, strength);
-    if (!janus::is_finite(power)) {
-      warn(lamp.name, "its power is not finite; the light is left out");
-      return;
-    }
-    if (power.x < 0.0f || power.y < 0.0f || power.z < 0.0f) {
-      warn(lamp.name, "negative light is not supported; the light is left out");
-      return;
-    }
-    if (is_black(power)) {
-      return;
-    }
-    switch (lamp.type) {
-      case LightType::Point:
-        add_point(lamp, strength);
-        break;
-      case LightType::Spot:
-        add_spot(lamp, strength);
-        break;
-      case LightType::Area:
-        add_area(lamp, strength);
-        break;
-      case LightType::Sun:
-        add_sun(lamp, strength);
-        break;
-    }
-  }
-
-  void add_point(const LightDesc& lamp, Rgb strength) {
-    if (!std::isfinite(lamp.radius)) {
-      warn(lamp.name, "its radius is not finite; the light is left out");
-      return;
-    }
-    const bool sphere = !lamp.soft_falloff && lamp.radius > 0.0f;
-    add_light(make_point_light(lamp, strength, sphere && surfaces_near(lamp)));
-  }
-
-  void add_spot(const LightDesc& lamp, Rgb strength) {
-    const float volume = glm::determinant(mat3(lamp.transform));
-    if (volume == 0.0f || !std::isfinite(volume)) {
-      warn(lamp.name, "a spot light that is scaled to nothing does not shine; it is left out");
-      return;
-    }
-    if (!(lamp.spot_size > 0.0f) || !std::isfinite(lamp.spot_blend)) {
-      warn(lamp.name, "a spot light without a beam does not shine; it is left out");
-      return;
-    }
-    add_point(lamp, strength);
-  }
-
-  void add_area(LightDesc& lamp, Rgb strength) {
-    const bool two_sizes = lamp.shape == AreaShape::Rectangle || lamp.shape == AreaShape::Ellipse;
-    const vec3 u = lamp.size * vec3(lamp.transform[0]);
-    const vec3 v = (two_sizes ? lamp.size_y : lamp.size) * vec3(lamp.transform[1]);
-    const float area = glm::length(cross(u, v));
-    const float volume = glm::determinant(mat3(lamp.transform));
-    if (!(area > 0.0f) || !std::isfinite(area) || !std::isfinite(volume) || volume == 0.0f) {
-      warn(lamp.name, "an area light without an area does not shine; it is left out");
-      return;
-    }
-    if (!(lamp.spread >= kMinSpread)) {
-      warn(lamp.name, "a spread below 0.1 degrees is not supported; 0.1 is used");
-      lamp.spread = kMinSpread;
-    }
-    add_light(make_area_light(lamp, strength));
-  }
-
-  void add_sun(const LightDesc& lamp, Rgb strength) {
-    const float length = glm::length(vec3(lamp.transform[2]));
-    if (!(length > 0.0f) || !std::isfinite(length) || !std::isfinite(lamp.angle)) {
-      warn(lamp.name, "its direction or its angle is not defined; the light is left out");
-      return;
-    }
-    add_light(make_sun_light(lamp, strength, surroundings()));
   }
 
   // Around all surfaces.
@@ -304,8 +205,6 @@ class Commit {
     }
     return false;
   }
-
-  static constexpr float kMinSpread = 0.1f * kPi / 180.0f;
 
   Scene& scene_;
   const CancelToken& cancel_;
@@ -353,7 +252,7 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   commit.set_objects(*camera_);
   commit.build_accel();
   commit.add_mesh_lights();
-  commit.add_lamps(lights_);
+  commit.add_lamps(lights_, images_, *camera_);
   if (world_) {
     commit.add_world(*world_, images_, *camera_);
   }

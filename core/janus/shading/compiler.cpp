@@ -18,11 +18,11 @@ constexpr Operation kShareOfFirst =
 class ClosureTree {
  public:
   ClosureTree(const NodeGraph& graph, const std::string& material, const ImageMap& images,
-              Diagnostics& diagnostics, std::optional<RayType> world_ray)
+              Diagnostics& diagnostics, std::optional<EmitterTree> emitter)
       : graph_(graph),
         material_(material),
         diagnostics_(diagnostics),
-        compiler_(graph, material, images, diagnostics, world_ray) {}
+        compiler_(graph, material, images, diagnostics, emitter) {}
 
   Program compile() {
     if (graph_.surface) {
@@ -104,8 +104,8 @@ class ClosureTree {
 }  // namespace
 
 Program compile(const NodeGraph& graph, const std::string& material, const ImageMap& images,
-                Diagnostics& diagnostics, std::optional<RayType> world_ray) {
-  return ClosureTree(graph, material, images, diagnostics, world_ray).compile();
+                Diagnostics& diagnostics, std::optional<EmitterTree> emitter) {
+  return ClosureTree(graph, material, images, diagnostics, emitter).compile();
 }
 
 std::vector<std::string> required_attributes(const NodeGraph& graph) {

@@ -21,12 +21,12 @@ constexpr Operation kLuminance =
 
 GraphCompiler::GraphCompiler(const NodeGraph& graph, const std::string& material,
                              const ImageMap& images, Diagnostics& diagnostics,
-                             std::optional<RayType> world_ray)
+                             std::optional<EmitterTree> emitter)
     : graph_(graph),
       material_(material),
       images_(images),
       diagnostics_(diagnostics),
-      world_ray_(world_ray) {
+      emitter_(emitter) {
   for (const Node& node : graph.nodes) {
     nodes_.emplace(node.name, &node);
   }

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "janus/scene/ray_type.h"
+#include "janus/shading/emitter_tree.h"
 #include "janus/shading/node_reader.h"
 #include "janus/shading/operation.h"
 
@@ -33,8 +33,8 @@ class NodeEmitter {
   // The value of an input, of its declared type. `at`: for a shifted input, which point.
   Value input(std::string_view identifier, int at = 0);
   bool linked(std::string_view identifier) const { return reader_.link(identifier) != nullptr; }
-  // In the tree of a world: the type of the rays that look at it.
-  std::optional<RayType> world_ray() const;
+  // Of what the tree is, if not of a surface.
+  std::optional<EmitterTree> emitter() const;
   // The value of an input that is a constant after folding.
   bool is_constant(Value value, float* x) const;
 

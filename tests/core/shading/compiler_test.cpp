@@ -351,13 +351,14 @@ TEST(Compiler, LightPath) {
   graph.nodes.push_back(node("Path", "LIGHT_PATH", {}));
   EXPECT_TRUE(warned(compiled(graph), "Path", "'Is Glossy Ray' is not supported"));
   Diagnostics said;
-  const Program glossy = compile(graph, "World", {}, said, RayType::Glossy);
-  const Program camera = compile(graph, "World", {}, said, RayType::Camera);
+  const Program glossy = compile(graph, "World", {}, said, EmitterTree{RayType::Glossy, false});
+  const Program camera = compile(graph, "World", {}, said, EmitterTree{RayType::Camera, false});
   EXPECT_TRUE(said.empty());
   EXPECT_TRUE(glossy.constant() && camera.constant());
   EXPECT_EQ(glossy.emission, Rgb(3));
   EXPECT_EQ(camera.emission, Rgb(1));
-  EXPECT_TRUE(glossy.emits_like(compile(graph, "World", {}, said, RayType::Transmission)));
+  EXPECT_TRUE(glossy.emits_like(
+      compile(graph, "World", {}, said, EmitterTree{RayType::Transmission, false})));
   EXPECT_FALSE(glossy.emits_like(camera));
 }
 

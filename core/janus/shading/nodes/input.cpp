@@ -24,6 +24,12 @@ constexpr Operation kAttributeAlpha =
 constexpr Operation kAttributeFactor =
     at_point<[](const Context& c) { return average(vec3(c.point.attribute(c.data))); }>;
 
+// Of the triangle, or of the lamp.
+constexpr Operation kParametric = at_point<[](const Context& c) {
+  const vec2 b = c.point.barycentric;
+  return vec3(1.0f - b.x - b.y, b.x, 0.0f);
+}>;
+
 // --- Texture Coordinate --------------------------------------------------------------------------
 
 constexpr std::string_view kCoordinates[] = {"Generated", "Normal", "UV",        "Object",
@@ -59,11 +65,12 @@ constexpr Operation kReflection = by_view<[](const Context& c) {
 }>;
 
 void emit_coordinates(NodeEmitter& e) {
-  const bool world = e.world_ray().has_value();
-  e.output("Generated",
-           world ? e.emit(kPosition, {}) : e.emit(kAttribute, {}, e.attribute("generated")));
+  const bool lamp = e.emitter() && e.emitter()->lamp, world = e.emitter() && !lamp;
+  e.output("Generated", world  ? e.emit(kPosition, {})
+                        : lamp ? e.emit(kObjectPoint, {})
+                               : e.emit(kAttribute, {}, e.attribute("generated")));
   e.output("Normal", e.emit(kObjectNormal, {}));
-  e.output("UV", e.emit(kAttribute, {}, e.attribute("uv:")));
+  e.output("UV", lamp ? e.emit(kParametric, {}) : e.emit(kAttribute, {}, e.attribute("uv:")));
   const std::vector<float>* other = e.list("object_matrix");
   e.output("Object", other && other->size() == 16 ? e.emit(kOtherObjectPoint, {}, e.table(*other))
                                                   : e.emit(kObjectPoint, {}));
@@ -106,10 +113,6 @@ constexpr std::string_view kGeometry[] = {"Position",    "Normal",     "Tangent"
                                           "True Normal", "Incoming",   "Parametric",
                                           "Backfacing",  "Pointiness", "Random Per Island"};
 constexpr Operation kIncoming = by_view<[](const Context& c) { return c.point.view; }>;
-constexpr Operation kParametric = at_point<[](const Context& c) {
-  const vec2 b = c.point.barycentric;
-  return vec3(1.0f - b.x - b.y, b.x, 0.0f);
-}>;
 constexpr Operation kBackfacing =
     by_side<[](const Context& c) { return c.point.backfacing() ? 1.0f : 0.0f; }>;
 
@@ -169,10 +172,10 @@ constexpr std::string_view kLightPath[] = {
     "Ray Length",         "Ray Depth",         "Diffuse Depth",       "Glossy Depth",
     "Transmission Depth", "Transparent Depth", "Portal Depth"};
 
-// A world has a program for each type of ray, with the answers as constants.
+// Worlds and lamps have a program for each type of ray, with the answers as constants.
 void emit_light_path(NodeEmitter& e) {
   for (const std::string_view output : kLightPath) {
-    const auto yes = e.world_ray() ? light_path_answer(*e.world_ray(), output) : std::nullopt;
+    const auto yes = e.emitter() ? light_path_answer(e.emitter()->ray, output) : std::nullopt;
     if (yes) {
       e.output(output, e.constant(*yes ? 1.0f : 0.0f));
     }
@@ -219,11 +222,11 @@ void emit_layer_weight(NodeEmitter& e) {
 
 // As in Cycles, what glass lets through is a glossy ray, too. The types do not tell mirrors from
 // rough surfaces, nor count bounces.
-std::optional<bool> light_path_answer(RayType world_ray, std::string_view output) {
-  const bool diffuse = world_ray == RayType::Diffuse, glossy = world_ray == RayType::Glossy;
-  const bool transmission = world_ray == RayType::Transmission;
+std::optional<bool> light_path_answer(RayType ray, std::string_view output) {
+  const bool diffuse = ray == RayType::Diffuse, glossy = ray == RayType::Glossy;
+  const bool transmission = ray == RayType::Transmission;
   const std::pair<std::string_view, bool> answers[] = {
-      {"Is Camera Ray", world_ray == RayType::Camera},
+      {"Is Camera Ray", ray == RayType::Camera},
       {"Is Shadow Ray", false},
       {"Is Diffuse Ray", diffuse},
       {"Is Glossy Ray", glossy || transmission},
