@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "janus/render/lamp.h"
+#include "janus/render/onlookers.h"
 #include "janus/render/world.h"
 #include "janus/shading/compiler.h"
 #include "janus/util/error.h"
@@ -25,6 +26,9 @@ mat4 to_camera(const CameraDesc& camera) {
   return turn * glm::inverse(camera.transform);
 }
 
+// A material's programs in Surfaces, by kRays.
+using ProgramsByRay = std::array<uint32_t, std::size(kRays)>;
+
 // One commit: fills a Scene step by step, in the order in which the parts need each other.
 class Commit {
  public:
@@ -34,9 +38,20 @@ class Commit {
     scene_.surfaces.add_program(default_surface());
     for (const auto& [key, desc] : materials) {
       const std::string& name = desc.name.empty() ? key : desc.name;
-      Program program = compile(desc.graph, name, images, scene_.diagnostics);
-      program.sample_emission = desc.sample_emission;
-      program_index_[key] = scene_.surfaces.add_program(std::move(program), desc.material_index);
+      const auto first = first_with_answers(desc.graph);
+      auto& programs = program_index_[key];
+      for (size_t i = 0; i < programs.size(); ++i) {
+        if (first[i] != i) {
+          programs[i] = programs[first[i]];
+          continue;
+        }
+        Diagnostics said;
+        Program program =
+            compile(desc.graph, name, images, said, {SeenTree::Of::Surface, kRays[i]});
+        add_new(scene_.diagnostics, said);
+        program.sample_emission = desc.sample_emission;
+        programs[i] = scene_.surfaces.add_program(std::move(program), desc.material_index);
+      }
     }
   }
 
@@ -70,20 +85,24 @@ class Commit {
       instance.object_index = desc.object_index;
       instance.random = desc.random;
       instance.normal_to_world = glm::transpose(glm::inverse(mat3(desc.transform)));
-      for (const auto& material : desc.materials) {
-        const uint32_t program = material ? find_program(key, *material) : 0;
-        instance.materials.push_back(scene_.surfaces.bind(program, scene_.meshes[instance.mesh]));
+      // The same surface for all rays, or one for those that see the same of it.
+      std::map<std::vector<uint32_t>, RayMask> by_look;
+      for (size_t ray = 0; ray < std::size(kRays); ++ray) {
+        by_look[programs_of(key, desc, ray)] |= ray_bit(kRays[ray]);
       }
-      if (instance.materials.empty()) {
-        instance.materials.push_back(0);
+      const size_t first = scene_.instances.size();
+      for (const auto& [programs, rays] : by_look) {
+        Instance seen = instance;
+        seen.visibility &= rays;
+        for (const uint32_t program : programs) {
+          seen.materials.push_back(scene_.surfaces.bind(program, scene_.meshes[seen.mesh]));
+        }
+        add_instance(std::move(seen));
       }
-      scene_.has_holdouts = scene_.has_holdouts || instance.holdout;
-      for (const uint32_t program : instance.materials) {
-        scene_.has_holdouts |= scene_.surfaces.program(program).holds_out();
-        instance.opaque = instance.opaque && !scene_.surfaces.program(program).has_transparency();
+      for (size_t i = first; i < scene_.instances.size(); ++i) {
+        scene_.instances[i].first_copy = static_cast<uint32_t>(first);
+        scene_.instances[i].copies = static_cast<uint32_t>(scene_.instances.size() - first);
       }
-      scene_.has_transparency = scene_.has_transparency || !instance.opaque;
-      scene_.instances.push_back(std::move(instance));
     }
   }
 
@@ -167,7 +186,33 @@ class Commit {
     scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
   }
 
-  uint32_t find_program(const std::string& instance, const std::string& material) {
+  std::vector<uint32_t> programs_of(const std::string& key, const InstanceDesc& desc,
+                                    size_t ray) const {
+    std::vector<uint32_t> programs;
+    for (const auto& material : desc.materials) {
+      programs.push_back(material ? find_program(key, *material)[ray] : 0);
+    }
+    if (programs.empty()) {
+      programs.push_back(0);
+    }
+    return programs;
+  }
+
+  void add_instance(Instance instance) {
+    if (instance.visibility == 0) {
+      return;
+    }
+    scene_.has_holdouts = scene_.has_holdouts || instance.holdout;
+    for (const uint32_t program : instance.materials) {
+      scene_.has_holdouts |= scene_.surfaces.program(program).holds_out();
+      instance.opaque = instance.opaque && !scene_.surfaces.program(program).has_transparency();
+    }
+    scene_.has_transparency = scene_.has_transparency || !instance.opaque;
+    scene_.instances.push_back(std::move(instance));
+  }
+
+  const ProgramsByRay& find_program(const std::string& instance,
+                                    const std::string& material) const {
     const auto it = program_index_.find(material);
     if (it == program_index_.end()) {
       throw SceneError(instance, "materials", "there is no material '" + material + "'");
@@ -208,7 +253,8 @@ class Commit {
 
   Scene& scene_;
   const CancelToken& cancel_;
-  std::map<std::string, uint32_t> mesh_index_, program_index_;
+  std::map<std::string, uint32_t> mesh_index_;
+  std::map<std::string, ProgramsByRay> program_index_;
 };
 
 }  // namespace

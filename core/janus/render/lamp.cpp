@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/render/lamp.h"
 
-#include "janus/render/emitter_programs.h"
+#include "janus/render/onlookers.h"
 
 namespace janus {
 
@@ -54,8 +54,10 @@ class LampMaker {
     }
     const bool by_ray = asks_for_rays(*lamp_.graph);
     for (const RayType ray : kOnlookers) {
+      Diagnostics said;
       add_seen(programs, ray,
-               compile(*lamp_.graph, lamp_.name, images, diagnostics_, EmitterTree{ray, true}));
+               compile(*lamp_.graph, lamp_.name, images, said, {SeenTree::Of::Lamp, ray}));
+      add_new(diagnostics_, said);
       if (!by_ray) {
         break;
       }

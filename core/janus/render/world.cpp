@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "janus/math/warp.h"
-#include "janus/render/emitter_programs.h"
+#include "janus/render/onlookers.h"
 #include "janus/shading/node_reader.h"
 
 namespace janus {
@@ -194,8 +194,10 @@ Parts find_parts(const WorldDesc& world, const ImageMap& images, Diagnostics& di
     } else if (auto picture = top ? finder.find(*top) : std::nullopt) {
       parts.pictures.push_back({ray_bit(ray), top->node, std::move(*picture)});
     } else {
+      Diagnostics said;
       add_seen(parts.programs, ray,
-               compile(*world.graph, world.name, images, diagnostics, EmitterTree{ray, false}));
+               compile(*world.graph, world.name, images, said, {SeenTree::Of::World, ray}));
+      add_new(diagnostics, said);
     }
     if (!by_ray) {
       break;

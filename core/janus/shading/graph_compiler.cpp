@@ -20,13 +20,8 @@ constexpr Operation kLuminance =
 }  // namespace
 
 GraphCompiler::GraphCompiler(const NodeGraph& graph, const std::string& material,
-                             const ImageMap& images, Diagnostics& diagnostics,
-                             std::optional<EmitterTree> emitter)
-    : graph_(graph),
-      material_(material),
-      images_(images),
-      diagnostics_(diagnostics),
-      emitter_(emitter) {
+                             const ImageMap& images, Diagnostics& diagnostics, SeenTree seen)
+    : graph_(graph), material_(material), images_(images), diagnostics_(diagnostics), seen_(seen) {
   for (const Node& node : graph.nodes) {
     nodes_.emplace(node.name, &node);
   }

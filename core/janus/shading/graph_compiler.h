@@ -19,7 +19,7 @@ namespace janus {
 class GraphCompiler {
  public:
   GraphCompiler(const NodeGraph& graph, const std::string& material, const ImageMap& images,
-                Diagnostics& diagnostics, std::optional<EmitterTree> emitter);
+                Diagnostics& diagnostics, SeenTree seen);
 
   // Values.
   Value constant(vec3 x, SocketType type);
@@ -31,7 +31,7 @@ class GraphCompiler {
   Value input(const NodeReader& reader, std::string_view identifier, uint16_t at);
   void output(const Node& node, uint16_t at, std::string_view identifier, Value value);
   bool linked(const Node& node, std::string_view output) const;
-  std::optional<EmitterTree> emitter() const { return emitter_; }
+  SeenTree seen() const { return seen_; }
 
   // What instructions refer to by `data`.
   uint32_t attribute(const std::string& key);
@@ -85,7 +85,7 @@ class GraphCompiler {
   const std::string& material_;
   const ImageMap& images_;
   Diagnostics& diagnostics_;
-  std::optional<EmitterTree> emitter_;
+  SeenTree seen_;
   std::map<std::string_view, const Node*> nodes_;
 
   std::vector<Definition> values_;

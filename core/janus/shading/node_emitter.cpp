@@ -17,7 +17,7 @@ bool NodeEmitter::is_constant(Value value, float* x) const {
   return found != nullptr;
 }
 
-std::optional<EmitterTree> NodeEmitter::emitter() const { return compiler_.emitter(); }
+SeenTree NodeEmitter::seen() const { return compiler_.seen(); }
 
 Value NodeEmitter::constant(float x) { return compiler_.constant(vec3(x), SocketType::Float); }
 Value NodeEmitter::constant(vec3 x) { return compiler_.constant(x, SocketType::Vector); }

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "janus/shading/emitter_tree.h"
 #include "janus/shading/node_reader.h"
 #include "janus/shading/operation.h"
+#include "janus/shading/seen_tree.h"
 
 namespace janus {
 
@@ -33,8 +33,8 @@ class NodeEmitter {
   // The value of an input, of its declared type. `at`: for a shifted input, which point.
   Value input(std::string_view identifier, int at = 0);
   bool linked(std::string_view identifier) const { return reader_.link(identifier) != nullptr; }
-  // Of what the tree is, if not of a surface.
-  std::optional<EmitterTree> emitter() const;
+  // Of what the tree is, and who looks.
+  SeenTree seen() const;
   // The value of an input that is a constant after folding.
   bool is_constant(Value value, float* x) const;
 

@@ -65,7 +65,7 @@ constexpr Operation kReflection = by_view<[](const Context& c) {
 }>;
 
 void emit_coordinates(NodeEmitter& e) {
-  const bool lamp = e.emitter() && e.emitter()->lamp, world = e.emitter() && !lamp;
+  const bool world = e.seen().of == SeenTree::Of::World, lamp = e.seen().of == SeenTree::Of::Lamp;
   e.output("Generated", world  ? e.emit(kPosition, {})
                         : lamp ? e.emit(kObjectPoint, {})
                                : e.emit(kAttribute, {}, e.attribute("generated")));
@@ -172,11 +172,10 @@ constexpr std::string_view kLightPath[] = {
     "Ray Length",         "Ray Depth",         "Diffuse Depth",       "Glossy Depth",
     "Transmission Depth", "Transparent Depth", "Portal Depth"};
 
-// Worlds and lamps have a program for each type of ray, with the answers as constants.
+// There is a program for each type of ray, with the answers as constants.
 void emit_light_path(NodeEmitter& e) {
   for (const std::string_view output : kLightPath) {
-    const auto yes = e.emitter() ? light_path_answer(e.emitter()->ray, output) : std::nullopt;
-    if (yes) {
+    if (const auto yes = light_path_answer(e.seen().ray, output)) {
       e.output(output, e.constant(*yes ? 1.0f : 0.0f));
     }
   }
@@ -227,7 +226,7 @@ std::optional<bool> light_path_answer(RayType ray, std::string_view output) {
   const bool transmission = ray == RayType::Transmission;
   const std::pair<std::string_view, bool> answers[] = {
       {"Is Camera Ray", ray == RayType::Camera},
-      {"Is Shadow Ray", false},
+      {"Is Shadow Ray", ray == RayType::Shadow},
       {"Is Diffuse Ray", diffuse},
       {"Is Glossy Ray", glossy || transmission},
       {"Is Reflection Ray", diffuse || glossy},
