@@ -17,9 +17,10 @@ SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 class InstanceSync:
     """Walks depsgraph.object_instances once and sends what it finds."""
 
-    def __init__(self, builder, materials, log, poll):
+    def __init__(self, builder, materials, images, log, poll):
         self._builder = builder
         self._materials = materials
+        self._images = images
         self._log = log
         self._poll = poll
         self._properties = InstanceProperties(log)
@@ -40,7 +41,8 @@ class InstanceSync:
                 self._surface(instance)
             elif obj.type == "LIGHT":
                 key = self._next_key("light")
-                sync_light(self._builder, key, obj, instance.matrix_world, depsgraph, self._log)
+                matrix = instance.matrix_world
+                sync_light(self._builder, key, obj, matrix, depsgraph, self._images, self._log)
             elif obj.type in UNSUPPORTED_TYPES:
                 self._log.warning(UNSUPPORTED_TYPES[obj.type], object=obj.name)
 

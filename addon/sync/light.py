@@ -8,13 +8,16 @@ from .graph import read_graph
 from .visibility import LIGHT_RAYS, seen_by
 
 
-def sync_light(builder, key: str, obj, matrix, depsgraph, log) -> None:
+def sync_light(builder, key: str, obj, matrix, depsgraph, images, log) -> None:
     """Sends the light object `obj` at `matrix`; portals, which emit nothing, are left out."""
     light = obj.data
     if getattr(getattr(light, "cycles", None), "is_portal", False):
         log.info("portals are not used for sampling yet", object=obj.name)
         return
     check_light(obj, log)
+    graph = read_graph(light.node_tree, depsgraph) if has_nodes(light) else None
+    if graph is not None:
+        images.send(graph, obj)
     builder.set_light(
         key,
         name=obj.name,
@@ -26,7 +29,7 @@ def sync_light(builder, key: str, obj, matrix, depsgraph, log) -> None:
         exposure=getattr(light, "exposure", 0.0),
         cast_shadow=light.use_shadow,
         max_bounces=getattr(getattr(light, "cycles", None), "max_bounces", 1024),
-        graph=read_graph(light.node_tree, depsgraph) if has_nodes(light) else None,
+        graph=graph,
         **shape(light),
         **seen_by(obj, LIGHT_RAYS),
     )

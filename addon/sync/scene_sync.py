@@ -23,4 +23,4 @@ def sync_scene(builder, depsgraph, log, test_break=lambda: False) -> None:
     sync_world(builder, depsgraph, images, log)
     check_scene(depsgraph, log)
     materials = MaterialSync(builder, depsgraph, images, log)
-    InstanceSync(builder, materials, log, poll).run(depsgraph)
+    InstanceSync(builder, materials, images, log, poll).run(depsgraph)

@@ -208,8 +208,9 @@ py::dict stats(const RenderSession& self) {
   d["samples"] = s.samples;
   d["seconds"] = s.seconds;
   d["paths"] = py::dict("camera"_a = c.camera_paths, "light"_a = c.light_paths);
-  d["rays"] = py::dict("camera"_a = c.camera_rays, "light"_a = c.light_rays, "nee"_a = c.nee_rays,
-                       "connection"_a = c.connection_rays, "splat"_a = c.splat_rays);
+  d["rays"] =
+      py::dict("camera"_a = c.camera_rays, "specular"_a = c.specular_rays, "light"_a = c.light_rays,
+               "nee"_a = c.nee_rays, "connection"_a = c.connection_rays, "splat"_a = c.splat_rays);
   // How far connections and other joins came before they were given up, in this order.
   d["joins"] =
       py::dict("connections"_a = c.connections, "connections_facing"_a = c.connections_facing,

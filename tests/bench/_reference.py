@@ -101,7 +101,7 @@ class References:
         return seen <= AGREE * expected
 
     def choose(self, measured: Callable[[np.ndarray, Callable[..., float]], float]) -> Reference:
-        """pt and Cycles together if they agree and are good enough, otherwise bdpt.
+        """pt and Cycles together if all three agree and they are good enough, otherwise bdpt.
 
         `measured(picture, of)` is the smallest error `of` that is to be measured against a picture.
         Good are those whose own error is a tenth of that, with and without the largest errors:
@@ -120,7 +120,10 @@ class References:
         both = sum(self.picture(kind) * share for kind, share in shares.items())
         errors = [sum(self.error(k, of) * w**2 for k, w in shares.items()) for of in metrics]
         found = reference(both, "pt + Cycles", errors)
-        if found.good and self.agree("pt", "cycles"):
+        # Both can miss the same light in both halves, and know nothing of it; bdpt makes all paths
+        # that they make.
+        pairs = (("pt", "cycles"), ("bdpt", "pt"), ("bdpt", "cycles"))
+        if found.good and all(self.agree(*pair) for pair in pairs):
             return found
         own = [self.error("bdpt", of) for of in metrics]
         return reference(self.picture("bdpt"), "bdpt", own)

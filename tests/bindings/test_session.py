@@ -158,4 +158,4 @@ def test_weights_can_be_checked(builder):
     assert 0.0 < stats["weight_error"] < 1e-4
     assert stats["dropped"] == 0
     assert stats["paths"] == {"camera": 4 * 512, "light": 4 * 512}
-    assert set(stats["rays"]) == {"camera", "light", "nee", "connection", "splat"}
+    assert set(stats["rays"]) == {"camera", "specular", "light", "nee", "connection", "splat"}

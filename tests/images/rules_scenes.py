@@ -22,7 +22,9 @@ LAMP = {
     "lamp_bounces_0": ("cycles.max_bounces", 0),
     "lamp_bounces_1": ("cycles.max_bounces", 1),
 }
-CASES = [*CAPS, *HIDDEN, *LAMP]
+# Name: what the leaf asks Light Path, to look otherwise to those rays.
+ASKED = {f"asks_{ray}": f"Is {ray.title()} Ray" for ray in (*RAYS, "reflection")}
+CASES = [*CAPS, *HIDDEN, *LAMP, *ASKED]
 
 
 def room(scene) -> None:
@@ -98,6 +100,25 @@ def hide(scene, thing: str, ray: str) -> None:
             objects["Leaf"].data.materials[0] = refraction
 
 
+def ask(scene, output: str) -> None:
+    """Rays that answer yes meet another leaf: a red one, or none that shadow rays would meet."""
+    from scenes import kit
+
+    scene.objects["Lamp"].data.cycles.use_multiple_importance_sampling = False
+    leaf = scene.objects["Leaf"].data.materials[0]
+    if output == "Is Shadow Ray":
+        other = kit.shader("Other", "BsdfTransparent", Color=(0.9, 0.4, 0.2, 1.0))
+        no_glass(scene)
+    else:
+        other = kit.diffuse("Other", (0.9, 0.1, 0.1))
+    mixed = kit.combined("Asked", "MixShader", leaf, other)
+    tree = mixed.node_tree
+    path = tree.nodes.new("ShaderNodeLightPath")
+    mix = next(node for node in tree.nodes if node.type == "MIX_SHADER")
+    tree.links.new(path.outputs[output], mix.inputs[0])
+    scene.objects["Leaf"].data.materials[0] = mixed
+
+
 def build(name: str):
     import bpy
 
@@ -109,6 +130,8 @@ def build(name: str):
     room(scene)
     if name in HIDDEN:
         hide(scene, *HIDDEN[name])
+    if name in ASKED:
+        ask(scene, ASKED[name])
     if name in LAMP:
         data = scene.objects["Lamp"].data
         data.cycles.use_multiple_importance_sampling = False

@@ -52,11 +52,13 @@ class Mesh {
 struct Instance {
   uint32_t mesh = 0;
   mat4 to_world = mat4(1.0f);
-  mat3 normal_to_world = mat3(1.0f);         // inverse transpose
-  std::vector<uint32_t> materials;           // index in Surfaces by slot; never empty
-  int light = -1;                            // index of the mesh light, or -1
-  bool opaque = true;                        // false: rays may pass through parts of it (see Accel)
-  RayMask visibility = kAllRays;             // the rays that meet it
+  mat3 normal_to_world = mat3(1.0f);  // inverse transpose
+  std::vector<uint32_t> materials;    // index in Surfaces by slot; never empty
+  int light = -1;                     // index of the mesh light, or -1
+  bool opaque = true;                 // false: rays may pass through parts of it (see Accel)
+  RayMask visibility = kAllRays;      // the rays that meet it
+  // The copies of it, with itself, that other rays meet in its place: a range of instances.
+  uint32_t first_copy = 0, copies = 1;
   bool holdout = false;                      // InstanceDesc::holdout
   vec4 color = vec4(1.0f);                   // what Object Info says: the object's colour,
   float object_index = 0.0f, random = 0.0f;  // its pass index, a number of its own in [0, 1]

@@ -15,6 +15,10 @@ vec2 direction_to_latlong(vec3 direction);
 // told apart by their z.
 vec3 latlong_to_direction(double u, double z);
 
+// The other mapping of Blender's, of textures on a sphere and of point lights: v as above, u turned
+// by a quarter and the other way round. The poles, and no direction at all, have a u of 0.
+vec2 direction_to_sphere(vec3 direction);
+
 // z of the directions with the given v.
 double latlong_z(double v);
 

@@ -17,7 +17,7 @@ constexpr float kFirefly = 8.0f;
 // several scenes, within 15 %.
 constexpr double kLightRay = 0.67, kSplatRay = 0.65, kConnection = 0.25, kPathTracing = 0.92;
 
-double cost(const Effort& effort, const Counters& work) {
+double cost_of(const Effort& effort, const Counters& work) {
   const double camera = static_cast<double>(work.camera_rays);
   if (effort == Effort{0.0f, 0.0f}) {
     return kPathTracing * camera;
@@ -35,6 +35,8 @@ AdaptiveCounts::Moments& AdaptiveCounts::Moments::operator+=(const Moments& othe
   }
   return *this;
 }
+
+double AdaptiveCounts::cost(const Counters& work) { return cost_of({1.0f, 1.0f}, work); }
 
 AdaptiveCounts::AdaptiveCounts(const SampleCounts& pilot)
     : pilot_{pilot.hit, pilot.nee, pilot.connection, pilot.splat} {
@@ -101,7 +103,7 @@ Effort AdaptiveCounts::choose(const Moments& moments, const Counters& work,
     }
     const double variance =
         std::max(moments.second[i] - moments.steady[i], kFloor * moments.second[i]);
-    if (const double product = variance * cost(effort, work); product < least) {
+    if (const double product = variance * cost_of(effort, work); product < least) {
       least = product;
       best = effort;
     }

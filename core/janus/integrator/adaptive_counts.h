@@ -80,6 +80,9 @@ class AdaptiveCounts {
     std::array<std::array<float, kSize>, kGroups> means_{};
   };
 
+  // What the pass did, in camera rays with their vertices and next event estimation.
+  static double cost(const Counters& work);
+
   // `pilot`: the counts of the measured pass.
   explicit AdaptiveCounts(const SampleCounts& pilot);
 

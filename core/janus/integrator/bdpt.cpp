@@ -9,22 +9,24 @@
 // (Georgiev et al. 2012): that finds caustics which are seen in mirrors or through glass, and blurs
 // light by the radius, which shrinks from pass to pass.
 //
+// Pixels that see smooth glass or a mirror have additional walks: specular_walks.h.
+//
 // To bound the cache, a pass runs in waves: a range of its light paths with a cache of their own,
 // then an interleaved subset of its pixels.
 #include "janus/integrator/adaptive_counts.h"
 #include "janus/integrator/merging.h"
 #include "janus/integrator/pass.h"
+#include "janus/integrator/pilot.h"
 #include "janus/integrator/roulette_map.h"
+#include "janus/integrator/specular_walks.h"
 #include "janus/path/oracle.h"
 
 namespace janus {
 
 namespace {
 
-constexpr size_t kPilotPaths = 4096;
 constexpr int kMeasuredPass = 1;      // adaptive counts; the pass before it shows what is bright
 constexpr size_t kOracleStride = 97;  // debug mode checks every 97th pixel
-constexpr int kMaxConnections = 65;   // RenderSettings allows 64, and one may be added by chance
 
 class Bdpt final : public PassIntegrator {
  public:
@@ -32,8 +34,14 @@ class Bdpt final : public PassIntegrator {
       : PassIntegrator(context, settings),
         effort_{settings.light_paths, settings.connections},
         mis_(settings.heuristic, counts_),
-        merging_(settings.merge_radius, context.scene.accel->bounds()) {
-    run_pilot();
+        merging_(settings.merge_radius, context.scene.accel->bounds()),
+        specular_walks_(context.film.rect()),
+        specular_(settings.walk) {
+    specular_.specular = true;
+    if (light_path_count(effort_.light_paths) > 0 &&
+        (effort_.connections > 0.0f || merging_.used())) {
+      cached_path_ = measure_cached_path(context, settings, mis_, merging_.used());
+    }
     set_effort(effort_);
     if (!settings_.only && !settings_.check_weights) {
       path_tracer_ = make_path_tracer(context, settings);
@@ -53,6 +61,9 @@ class Bdpt final : public PassIntegrator {
     if (measure) {
       meter_.emplace(counts_);
     }
+    if (walks_more()) {
+      specular_walks_.begin_pass(pass, work_);
+    }
     const Counters before = counters();
     if (merges()) {
       merging_.begin_pass(pass);
@@ -64,9 +75,10 @@ class Bdpt final : public PassIntegrator {
       trace_camera(pass, wave);
     }
     first_light_path_ += light_paths_;
+    work_ = counters();
+    work_ -= before;
     if (measure) {
-      Counters work = counters();
-      adapt(work -= before);
+      adapt(work_);
     }
   }
 
@@ -86,6 +98,12 @@ class Bdpt final : public PassIntegrator {
            light_paths_ > 0 && counts_.connection > 0.0f;
   }
 
+  // Is there light for specular walks to find? Debugging wants the techniques alone.
+  bool walks_more() const {
+    return context_.scene.surfaces.any_delta() && !settings_.only &&
+           std::ranges::any_of(context_.scene.lights, [](const auto& l) { return l->hittable(); });
+  }
+
   bool merges() const { return merging_.used() && light_paths_ > 0 && !settings_.only; }
 
   // Are there paths that camera walks cannot make? A light that cannot be hit, behind a delta.
@@ -96,63 +114,27 @@ class Bdpt final : public PassIntegrator {
 
   void adapt(const Counters& work) {
     const Effort factor = AdaptiveCounts::choose(moments_, work, needs_light_paths());
-    set_effort({effort_.light_paths * factor.light_paths,
-                std::min(effort_.connections * factor.connections, kMaxConnections - 1.0f)});
+    set_effort(
+        {effort_.light_paths * factor.light_paths,
+         std::min(effort_.connections * factor.connections, VertexCache::kMostPicks - 1.0f)});
     meter_.reset();
-  }
-
-  // Measures the vertices that a light path leaves in the cache. The weights need that number
-  // before the pass: with the pass's own count, weight and estimate would be correlated.
-  void run_pilot() {
-    if (light_path_count(effort_.light_paths) == 0 ||
-        (effort_.connections == 0.0f && !merging_.used())) {
-      return;
-    }
-    constexpr size_t kBlocks = 16;
-    std::array<CacheBlock, kBlocks> caches;
-    context_.pool.parallel_for(kBlocks, [&](size_t block) {
-      context_.cancel.throw_if_cancelled();
-      Counters ignored;
-      for (size_t i = 0; i < kPilotPaths / kBlocks; ++i) {
-        Sampler sampler(settings_.seed, Stream::Pilot, 0, block * (kPilotPaths / kBlocks) + i);
-        trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, ignored,
-                            [&](const PathVertex& v, Sampler&) { cache(v, caches[block]); });
-      }
-    });
-    size_t vertices = 0, bytes = 0;
-    for (const CacheBlock& c : caches) {
-      vertices += c.vertices.size();
-      bytes += c.bytes();
-    }
-    vertices_per_path_ = static_cast<float>(vertices) / kPilotPaths;
-    if (merging_.used()) {
-      bytes += vertices * VertexGrid::kBytesPerVertex;
-    }
-    bytes_per_path_ = static_cast<double>(bytes) / kPilotPaths;
   }
 
   void set_effort(const Effort& effort) {
     effort_ = effort;
     light_paths_ = light_path_count(effort.light_paths);
     counts_.splat = static_cast<float>(light_paths_);
-    const bool connect = light_paths_ > 0 && effort.connections > 0.0f && vertices_per_path_ > 0.0f;
-    counts_.connection = connect ? effort.connections / vertices_per_path_ : 0.0f;
+    const bool connect =
+        light_paths_ > 0 && effort.connections > 0.0f && cached_path_.vertices > 0.0f;
+    counts_.connection = connect ? effort.connections / cached_path_.vertices : 0.0f;
     const double pass_bytes =
-        connect || merges() ? bytes_per_path_ * static_cast<double>(light_paths_) : 0.0;
+        connect || merges() ? cached_path_.bytes * static_cast<double>(light_paths_) : 0.0;
     // A wave without light paths would leave its pixels without connections.
     waves_ = std::min(1 + static_cast<size_t>(1.1 * pass_bytes / settings_.cache_bytes),
                       std::max<size_t>(1, light_paths_ / kLightBlock));
     renew_weights();
   }
   void renew_weights() { mis_ = Mis(settings_.heuristic, counts_); }
-
-  // A vertex that no camera vertex may join within the length limit is not worth its place.
-  void cache(const PathVertex& v, CacheBlock& cache) const {
-    const int least = merging_.used() ? 1 : 2;  // edges that a join adds
-    if (v.bsdf().connectible() && v.edges + least <= v.max_edges && v.possible_labels(false) != 0) {
-      cache.add(v);
-    }
-  }
 
   void trace_lights(size_t wave) {
     const size_t begin = light_paths_ * wave / waves_, end = light_paths_ * (wave + 1) / waves_;
@@ -176,8 +158,8 @@ class Bdpt final : public PassIntegrator {
                             [&](const PathVertex& v, Sampler& walk) {
                               splat(v, walk, margin, splats[block], moments[meter_ ? block : 0],
                                     counters);
-                              if (keep) {
-                                cache(v, caches[block]);
+                              if (keep && worth_caching(v, merging_.used())) {
+                                caches[block].add(v);
                               }
                             });
       }
@@ -270,6 +252,7 @@ class Bdpt final : public PassIntegrator {
     sampler.start_block(0);
     const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
     const Roulette roulette = roulette_.at(raster);
+    const float share = specular_walks_.share(index);
     AdaptiveCounts::Gauge meter = gauge(raster, moments);
     Rgb sum(0.0f);
     const auto gather = [&](Rgb value) {
@@ -280,17 +263,20 @@ class Bdpt final : public PassIntegrator {
     const float alpha = trace_camera_subpath(
         context_.scene, context_.camera, raster, mis_, settings_.walk, sampler, counters,
         [&](const LightFound& found) {
-          const Connection c{
-              found.beta * found.hit.radiance, found.weight, {}, {}, RayType::Shadow, 0};
-          const Rgb value = settings_.clamp(weighted(c, 0, found.edges + 1), found.edges);
-          gather(value);
+          const Rgb value = light_found(found);
+          gather(found.specular ? value * share : value);
           if (found.edges > 1) {  // straight into the light: the same whatever the counts
             meter.add_single(value, found.weight, found.edges, false);
           }
         },
         [&](const PathVertex& v, Sampler& walk) {
+          if (v.edges == 1 && std::ranges::any_of(v.bsdf().lobes(), is_delta)) {
+            specular_walks_.saw(index);
+          }
           if (v.bsdf().connectible()) {
-            const Picks picks = pick(walk);
+            const VertexCache::Picks picks = counts_.connection > 0.0f
+                                                 ? cache_.pick(effort_.connections, walk)
+                                                 : VertexCache::Picks();
             gather(next_event(v, roulette, walk, meter, counters));
             gather(connect(v, picks, roulette, walk, meter, counters));
             if (merges()) {
@@ -299,12 +285,40 @@ class Bdpt final : public PassIntegrator {
             }
           }
         });
+    for (int i = 0; i < specular_walks_.count(index); ++i) {
+      gather(walk_specular(index, specular_walks_.first() + i, counters) * share);
+    }
     context_.film.add_sample(index, sum, alpha);
     if (settings_.check_weights && index % kOracleStride == 0) {
       check(raster, index, pass);
     }
     meter.pair(previous);
     return meter;
+  }
+
+  Rgb light_found(const LightFound& found) const {
+    const Connection c{found.beta * found.hit.radiance, found.weight, {}, {}, RayType::Shadow, 0};
+    return settings_.clamp(weighted(c, 0, found.edges + 1), found.edges);
+  }
+
+  // What a walk over deltas alone finds, the `number`th additional one of the pixel.
+  Rgb walk_specular(size_t index, uint64_t number, Counters& counters) const {
+    Sampler sampler = pixel_sampler(Stream::Specular, index, number);
+    sampler.start_block(0);
+    const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
+    Rgb sum(0.0f);
+    Counters walked;
+    trace_camera_subpath(
+        context_.scene, context_.camera, raster, mis_, specular_, sampler, walked,
+        [&](const LightFound& found) {
+          if (found.specular) {
+            sum += light_found(found);
+          }
+        },
+        [](const PathVertex&, Sampler&) {});
+    ++counters.specular_walks;
+    counters.specular_rays += walked.camera_rays;
+    return sum;
   }
 
   Rgb next_event(const PathVertex& v, const Roulette& roulette, Sampler& sampler,
@@ -323,33 +337,8 @@ class Bdpt final : public PassIntegrator {
     return value;
   }
 
-  // Cached vertices to be joined with a camera vertex.
-  struct Picks {
-    int count = 0;
-    std::array<VertexCache::Entry, kMaxConnections> entries;
-  };
-
-  // Picks uniformly, and asks for the memory: it arrives while next event estimation is at work.
-  Picks pick(Sampler& sampler) const {
-    Picks picks;
-    const size_t size = cache_.size();
-    if (counts_.connection == 0.0f || size == 0) {
-      return picks;
-    }
-    picks.count = static_cast<int>(effort_.connections + sampler.next_1d());
-    for (int n = 0; n < picks.count; ++n) {
-      const size_t i =
-          std::min(static_cast<size_t>(sampler.next_1d() * static_cast<double>(size)), size - 1);
-      picks.entries[n] = cache_.at(i);
-      const auto* bytes = reinterpret_cast<const char*>(picks.entries[n].vertex);
-      __builtin_prefetch(bytes);
-      __builtin_prefetch(bytes + 64);
-    }
-    return picks;
-  }
-
-  Rgb connect(const PathVertex& v, const Picks& picks, const Roulette& roulette, Sampler& sampler,
-              AdaptiveCounts::Gauge& meter, Counters& counters) const {
+  Rgb connect(const PathVertex& v, const VertexCache::Picks& picks, const Roulette& roulette,
+              Sampler& sampler, AdaptiveCounts::Gauge& meter, Counters& counters) const {
     Rgb sum(0.0f);
     // The actual size belongs to the estimate, the expected one (in counts_) to the weights.
     const float scale =
@@ -389,8 +378,7 @@ class Bdpt final : public PassIntegrator {
   std::unique_ptr<Integrator> path_tracer_;  // for passes without light paths
   size_t light_paths_ = 0;                   // of a pass
   uint64_t first_light_path_ = 0;            // of the pass, among all
-  float vertices_per_path_ = 0.0f;           // expected in the cache
-  double bytes_per_path_ = 0.0;
+  CachedPath cached_path_;
   SampleCounts counts_;
   Mis mis_;
   size_t waves_ = 1, wave_paths_ = 0;
@@ -398,6 +386,9 @@ class Bdpt final : public PassIntegrator {
   AdaptiveCounts::Moments moments_;
   VertexCache cache_;
   Merging merging_;
+  SpecularWalks specular_walks_;
+  WalkSettings specular_;
+  Counters work_;                           // of the pass before
   std::vector<std::vector<Splat>> splats_;  // by block of light paths
   size_t cache_bytes_ = 0;                  // the largest so far
   RouletteMap roulette_;

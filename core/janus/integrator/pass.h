@@ -35,9 +35,12 @@ class PassIntegrator : public Integrator {
   // The sampler of a camera sample. Keyed by the pixel of the full frame: a crop shows the same
   // samples as the whole picture.
   Sampler camera_sampler(size_t index, int pass) const {
+    return pixel_sampler(Stream::Camera, index, pass);
+  }
+  Sampler pixel_sampler(Stream stream, size_t index, uint64_t number) const {
     const FilmRect& rect = context_.film.rect();
     const uint64_t x = rect.x0 + index % rect.width(), y = rect.y0 + index / rect.width();
-    return Sampler(settings_.seed, Stream::Camera, y << 32 | x, pass);
+    return Sampler(settings_.seed, stream, y << 32 | x, number);
   }
 
   // Calls body(pixel index, Counters&) for all pixels of a row.

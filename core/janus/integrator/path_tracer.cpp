@@ -148,12 +148,20 @@ class PathTracer final : public PassIntegrator {
       }
       const float t_end = glm::length(hit.p - walk.ray.origin);
       sum += lamps(walk, t_end);
-      const ShadingResult shading = scene.shade(hit, -d);
-      if (size_t index; const MeshLight* light = scene.mesh_light(hit, index)) {
-        sum += found(walk, index, light->at(hit, walk.previous.p, d, shading.emission));
+      std::optional<Rgb> transparency;  // of the copy that shadow rays meet
+      const Instance& met = scene.instances[hit.instance];
+      for (uint32_t copy = met.first_copy; copy < met.first_copy + met.copies; ++copy) {
+        scene.turn_to_copy(hit, copy);
+        const ShadingResult shading = scene.shade(hit, -d);
+        if (size_t index; const MeshLight* light = scene.mesh_light(hit, index)) {
+          sum += found(walk, index, light->at(hit, walk.previous.p, d, shading.emission));
+        }
+        if (contains(scene.instances[copy].visibility, RayType::Shadow)) {
+          transparency = shading.transparency;
+        }
       }
-      if (contains(scene.instances[hit.instance].visibility, RayType::Shadow)) {
-        *walk.through *= shading.transparency;
+      if (transparency) {
+        *walk.through *= *transparency;
         if (++walk.crossings > settings_.walk.max_crossings) {
           walk.through = Rgb(0.0f);
         }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -105,6 +106,32 @@ class VertexCache {
       ++block;
     }
     return {&blocks_[block], &blocks_[block].vertices[i - first_[block]]};
+  }
+
+  // Entries to be joined with a camera vertex. RenderSettings allows 64, and one may be added by
+  // chance.
+  static constexpr int kMostPicks = 65;
+  struct Picks {
+    int count = 0;
+    std::array<Entry, kMostPicks> entries;
+  };
+
+  // Picks uniformly, with `mean` entries expected unless there is none, and asks for the memory: it
+  // arrives while next event estimation is at work.
+  Picks pick(float mean, Sampler& sampler) const {
+    Picks picks;
+    if (size() == 0) {
+      return picks;
+    }
+    picks.count = static_cast<int>(mean + sampler.next_1d());
+    for (int n = 0; n < picks.count; ++n) {
+      const auto i = static_cast<size_t>(sampler.next_1d() * static_cast<double>(size()));
+      picks.entries[n] = at(std::min(i, size() - 1));
+      const auto* bytes = reinterpret_cast<const char*>(picks.entries[n].vertex);
+      __builtin_prefetch(bytes);
+      __builtin_prefetch(bytes + 64);
+    }
+    return picks;
   }
 
  private:

@@ -35,6 +35,10 @@ inline bool is_black(Rgb c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; 
 inline bool is_finite(vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
+inline bool is_finite(const mat4& m) {
+  return is_finite(vec3(m[0])) && is_finite(vec3(m[1])) && is_finite(vec3(m[2])) &&
+         is_finite(vec3(m[3]));
+}
 
 struct Ray {
   vec3 origin;

@@ -10,6 +10,7 @@ namespace janus {
 struct Counters {
   uint64_t camera_paths = 0, light_paths = 0;
   uint64_t camera_rays = 0, light_rays = 0;                    // walks
+  uint64_t specular_walks = 0, specular_rays = 0;              // more of the camera's, in no other
   uint64_t nee_rays = 0, connection_rays = 0, splat_rays = 0;  // shadow rays
   // Connections: picked from the cache; with both ends facing; not ended by roulette on the bound;
   // with a value. What is left after roulette on the value is connection_rays.
@@ -29,10 +30,11 @@ struct Counters {
 inline Counters& Counters::combine(const Counters& o, int sign) {
   for (const auto field :
        {&Counters::camera_paths, &Counters::light_paths, &Counters::camera_rays,
-        &Counters::light_rays, &Counters::nee_rays, &Counters::connection_rays,
-        &Counters::splat_rays, &Counters::connections, &Counters::connections_facing,
-        &Counters::connections_evaluated, &Counters::nee_samples, &Counters::splats,
-        &Counters::merges, &Counters::light_vertices, &Counters::dropped}) {
+        &Counters::light_rays, &Counters::specular_walks, &Counters::specular_rays,
+        &Counters::nee_rays, &Counters::connection_rays, &Counters::splat_rays,
+        &Counters::connections, &Counters::connections_facing, &Counters::connections_evaluated,
+        &Counters::nee_samples, &Counters::splats, &Counters::merges, &Counters::light_vertices,
+        &Counters::dropped}) {
     this->*field += static_cast<uint64_t>(sign) * o.*field;
   }
   return *this;

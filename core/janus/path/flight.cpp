@@ -5,6 +5,46 @@
 
 namespace janus {
 
+namespace {
+
+// What is where a light walk meets a surface: one instance, or copies of it for different rays.
+struct Place {
+  Rgb transparency = Rgb(1.0f);  // for the segment that leads there
+  bool blocks = false;           // does it count as a crossing?
+  float albedo[kRayTypes] = {};  // of the copies that the walk may end at
+  float sum = 0.0f;
+};
+
+bool may_end(const Instance& instance) {
+  return (instance.visibility & (kLabels | ray_bit(RayType::Camera))) != 0;
+}
+
+void shade_copy(const Scene& scene, vec3 direction, uint32_t copy, PathVertex& v) {
+  scene.turn_to_copy(v.hit, copy);
+  v.visibility = scene.instances[copy].visibility;
+  shade_from_light(scene, direction, v);
+}
+
+// Leaves the last copy in `v`.
+Place look_at(const Scene& scene, vec3 direction, RayType type, PathVertex& v) {
+  const Instance& met = scene.instances[v.hit.instance];
+  const uint32_t first = met.first_copy;
+  Place place;
+  for (uint32_t i = 0; i < met.copies; ++i) {
+    const Instance& copy = scene.instances[first + i];
+    shade_copy(scene, direction, first + i, v);
+    if (contains(copy.visibility, type)) {
+      place.blocks = true;
+      place.transparency = v.shading.transparency;
+    }
+    place.albedo[i] = may_end(copy) ? v.shading.bsdf.albedo() : 0.0f;
+    place.sum += place.albedo[i];
+  }
+  return place;
+}
+
+}  // namespace
+
 bool fly_past(const Scene& scene, const Ray& ray, RayType type, int max_crossings, Sampler& sampler,
               uint64_t& rays, PathVertex& v) {
   Ray segment = ray;
@@ -13,24 +53,34 @@ bool fly_past(const Scene& scene, const Ray& ray, RayType type, int max_crossing
     if (!scene.accel->intersect_any(segment, v.hit)) {
       return false;
     }
-    v.visibility = scene.instances[v.hit.instance].visibility;
-    shade_from_light(scene, ray.direction, v);
-    const bool blocks = contains(v.visibility, type);
-    const bool may_end = (v.visibility & (kLabels | ray_bit(RayType::Camera))) != 0;
-    const Rgb transparency = blocks ? v.shading.transparency : Rgb(1.0f);
-    if (is_black(transparency)) {
-      return may_end;
+    const Instance& met = scene.instances[v.hit.instance];
+    const Place place = look_at(scene, ray.direction, type, v);
+    if (met.copies == 1 && is_black(place.transparency)) {
+      return may_end(met);
     }
-    const float through = average(transparency);
-    const float pmf_pass = through / (through + (may_end ? v.shading.bsdf.albedo() : 0.0f));
-    if (sampler.next_1d() >= pmf_pass) {
-      v.beta /= 1.0f - pmf_pass;
-      return true;
-    }
-    if (blocks && v.crossings++ == max_crossings) {
+    const float through = average(place.transparency), sum = through + place.sum;
+    if (!(sum > 0.0f)) {
       return false;
     }
-    v.beta *= transparency / pmf_pass;
+    float u = sampler.next_1d() * sum - through;
+    if (u >= 0.0f) {
+      uint32_t chosen = 0;
+      while (chosen + 1 < met.copies && u >= place.albedo[chosen]) {
+        u -= place.albedo[chosen++];
+      }
+      if (!(place.albedo[chosen] > 0.0f)) {
+        return false;  // rounding, at the very end
+      }
+      if (met.copies > 1) {
+        shade_copy(scene, ray.direction, met.first_copy + chosen, v);
+      }
+      v.beta /= place.albedo[chosen] / sum;
+      return true;
+    }
+    if (place.blocks && v.crossings++ == max_crossings) {
+      return false;
+    }
+    v.beta *= place.transparency / (through / sum);
     segment.origin = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, ray.direction);
     segment.t_max = ray.t_max - glm::length(segment.origin - ray.origin);
   }
@@ -86,14 +136,24 @@ void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossing
     if (!surface) {
       return;
     }
-    scene.shade(hit, -ray.direction, shading);
-    if (size_t index; !is_black(shading.emission)) {
-      if (const MeshLight* light = scene.mesh_light(hit, index)) {
-        report(index, light->at(hit, from, ray.direction, shading.emission));
+    const Instance& met = scene.instances[hit.instance];
+    Rgb transparency(1.0f);
+    bool blocks = false;
+    for (uint32_t i = 0; i < met.copies; ++i) {
+      scene.turn_to_copy(hit, met.first_copy + i);
+      scene.shade(hit, -ray.direction, shading);
+      if (size_t index; !is_black(shading.emission)) {
+        if (const MeshLight* light = scene.mesh_light(hit, index)) {
+          report(index, light->at(hit, from, ray.direction, shading.emission));
+        }
+      }
+      if (contains(scene.instances[hit.instance].visibility, RayType::Shadow)) {
+        blocks = true;
+        transparency = shading.transparency;
       }
     }
-    if (contains(scene.instances[hit.instance].visibility, RayType::Shadow)) {
-      through *= crossings++ < max_crossings ? shading.transparency : Rgb(0.0f);
+    if (blocks) {
+      through *= crossings++ < max_crossings ? transparency : Rgb(0.0f);
       if (is_black(through) && !scene.has_unblocked) {
         return;
       }

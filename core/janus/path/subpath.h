@@ -12,6 +12,7 @@ namespace janus {
 
 struct WalkSettings : PathRules {
   bool roulette = true;
+  bool specular = false;  // a camera walk ends where it does not scatter by a delta
 };
 
 // Light found on the segment after a camera vertex: a path of technique s=0 with `edges` edges.
@@ -20,6 +21,7 @@ struct LightFound {
   LightHit hit;
   Rgb beta;
   int edges;
+  bool specular;       // over deltas alone, at least one
   MisWeight weight;    // 1 for edges == 1
   LightEnd end;        // for edges > 1
   Departure previous;  // how z_1 was left
@@ -143,6 +145,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   if (!endpoint) {
     return;
   }
+  v.beta *= light.tint(*endpoint, emission->direction);
   if (*endpoint != emission->origin) {
     v.beta *= scene.transmittance(*endpoint, emission->origin, first_type(v.segment),
                                   settings.max_crossings - v.crossings, Scene::End::B);
@@ -216,6 +219,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
   Receiver previous{start.lens, start.ray.direction, true};
   float eta_scale = 1.0f, alpha = 1.0f;
   bool ended = false;  // at something that holds out
+  bool specular = true;
   for (v.edges = 1;; ++v.edges) {
     const Ray& ray = step.ray;
     const RayType type = v.edges == 1 ? RayType::Camera : step.label;
@@ -229,7 +233,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
       }
       if (v.edges == 1) {
         if (contains(light.visibility, RayType::Camera)) {
-          on_light(LightFound{index, hit, beta, 1, {}, {}, {}});
+          on_light(LightFound{index, hit, beta, 1, false, {}, {}, {}});
         }
         return;
       }
@@ -248,6 +252,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
           hit,
           beta,
           v.edges,
+          specular,
           mis.weight_hit(step.left.pdf_solid, step.left.delta, pdf_nee, joint, step.behind),
           {joint, pdf_nee, true, ray.direction},
           step.left});
@@ -302,6 +307,10 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     on_vertex(v, sampler);
 
     if (!scatter(v, mis, sampler, TransportMode::Radiance, settings, 1.0f, eta_scale, step)) {
+      return alpha;
+    }
+    specular = specular && step.left.delta;
+    if (settings.specular && !specular) {
       return alpha;
     }
     if (settings.counts()) {

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "janus/light/lamps.h"
+#include "janus/render/lamp.h"
+#include "janus/render/onlookers.h"
 #include "janus/render/world.h"
 #include "janus/shading/compiler.h"
 #include "janus/util/error.h"
@@ -11,15 +12,6 @@
 namespace janus {
 
 namespace {
-
-bool is_finite(const mat4& m) {
-  for (int i = 0; i < 4; ++i) {
-    if (!janus::is_finite(vec3(m[i]))) {
-      return false;
-    }
-  }
-  return true;
-}
 
 // The camera looks along +z in Cycles; panoramas look along +x, with +z up.
 CameraView view_of(const CameraDesc& camera) {
@@ -35,6 +27,9 @@ CameraView view_of(const CameraDesc& camera) {
           camera.bottom, camera.top};
 }
 
+// A material's programs in Surfaces, by kRays.
+using ProgramsByRay = std::array<uint32_t, std::size(kRays)>;
+
 // One commit: fills a Scene step by step, in the order in which the parts need each other.
 class Commit {
  public:
@@ -44,9 +39,20 @@ class Commit {
     scene_.surfaces.add_program(default_surface());
     for (const auto& [key, desc] : materials) {
       const std::string& name = desc.name.empty() ? key : desc.name;
-      Program program = compile(desc.graph, name, images, scene_.diagnostics);
-      program.sample_emission = desc.sample_emission;
-      program_index_[key] = scene_.surfaces.add_program(std::move(program), desc.material_index);
+      const auto first = first_with_answers(desc.graph);
+      auto& programs = program_index_[key];
+      for (size_t i = 0; i < programs.size(); ++i) {
+        if (first[i] != i) {
+          programs[i] = programs[first[i]];
+          continue;
+        }
+        Diagnostics said;
+        Program program =
+            compile(desc.graph, name, images, said, {SeenTree::Of::Surface, kRays[i]});
+        add_new(scene_.diagnostics, said);
+        program.sample_emission = desc.sample_emission;
+        programs[i] = scene_.surfaces.add_program(std::move(program), desc.material_index);
+      }
     }
   }
 
@@ -80,21 +86,25 @@ class Commit {
       instance.object_index = desc.object_index;
       instance.random = desc.random;
       instance.normal_to_world = glm::transpose(glm::inverse(mat3(desc.transform)));
-      for (const auto& material : desc.materials) {
-        const uint32_t program = material ? find_program(key, *material) : 0;
-        instance.materials.push_back(
-            scene_.surfaces.bind(program, scene_.meshes[instance.mesh], desc.attributes));
+      // The same surface for all rays, or one for those that see the same of it.
+      std::map<std::vector<uint32_t>, RayMask> by_look;
+      for (size_t ray = 0; ray < std::size(kRays); ++ray) {
+        by_look[programs_of(key, desc, ray)] |= ray_bit(kRays[ray]);
       }
-      if (instance.materials.empty()) {
-        instance.materials.push_back(0);
+      const size_t first = scene_.instances.size();
+      for (const auto& [programs, rays] : by_look) {
+        Instance seen = instance;
+        seen.visibility &= rays;
+        for (const uint32_t program : programs) {
+          seen.materials.push_back(
+              scene_.surfaces.bind(program, scene_.meshes[seen.mesh], desc.attributes));
+        }
+        add_instance(std::move(seen));
       }
-      scene_.has_holdouts = scene_.has_holdouts || instance.holdout;
-      for (const uint32_t program : instance.materials) {
-        scene_.has_holdouts |= scene_.surfaces.program(program).holds_out();
-        instance.opaque = instance.opaque && !scene_.surfaces.program(program).has_transparency();
+      for (size_t i = first; i < scene_.instances.size(); ++i) {
+        scene_.instances[i].first_copy = static_cast<uint32_t>(first);
+        scene_.instances[i].copies = static_cast<uint32_t>(scene_.instances.size() - first);
       }
-      scene_.has_transparency = scene_.has_transparency || !instance.opaque;
-      scene_.instances.push_back(std::move(instance));
     }
   }
 
@@ -137,13 +147,18 @@ class Commit {
     }
   }
 
-  void add_lamps(const std::map<std::string, LightDesc>& lights) {
+  void add_lamps(const std::map<std::string, LightDesc>& lights, const ImageMap& images,
+                 const CameraDesc& camera) {
+    const LampSurroundings around{view_of(camera), surroundings(),
+                                  [&](const LightDesc& lamp) { return surfaces_near(lamp); }};
     for (const auto& [key, desc] : lights) {
       LightDesc lamp = desc;
       if (lamp.name.empty()) {
         lamp.name = key;
       }
-      add_lamp(lamp);
+      for (auto& light : make_lamp(std::move(lamp), images, around, scene_.diagnostics)) {
+        add_light(std::move(light));
+      }
     }
   }
 
@@ -173,17 +188,33 @@ class Commit {
     scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
   }
 
-  // What the program of a lamp emits, which should be the same everywhere.
-  Rgb everywhere(const Program& program, const std::string& name) {
-    if (!program.constant()) {
-      scene_.diagnostics.push_back({Severity::Warning, "", name, "",
-                                    "light that varies with place or direction is not supported "
-                                    "yet for lamps; it is left out"});
+  std::vector<uint32_t> programs_of(const std::string& key, const InstanceDesc& desc,
+                                    size_t ray) const {
+    std::vector<uint32_t> programs;
+    for (const auto& material : desc.materials) {
+      programs.push_back(material ? find_program(key, *material)[ray] : 0);
     }
-    return program.emission;
+    if (programs.empty()) {
+      programs.push_back(0);
+    }
+    return programs;
   }
 
-  uint32_t find_program(const std::string& instance, const std::string& material) {
+  void add_instance(Instance instance) {
+    if (instance.visibility == 0) {
+      return;
+    }
+    scene_.has_holdouts = scene_.has_holdouts || instance.holdout;
+    for (const uint32_t program : instance.materials) {
+      scene_.has_holdouts |= scene_.surfaces.program(program).holds_out();
+      instance.opaque = instance.opaque && !scene_.surfaces.program(program).has_transparency();
+    }
+    scene_.has_transparency = scene_.has_transparency || !instance.opaque;
+    scene_.instances.push_back(std::move(instance));
+  }
+
+  const ProgramsByRay& find_program(const std::string& instance,
+                                    const std::string& material) const {
     const auto it = program_index_.find(material);
     if (it == program_index_.end()) {
       throw SceneError(instance, "materials", "there is no material '" + material + "'");
@@ -196,91 +227,6 @@ class Commit {
       scene_.lamps.push_back(scene_.lights.size());
     }
     scene_.lights.push_back(std::move(light));
-  }
-
-  void add_lamp(LightDesc& lamp) {
-    if (!is_finite(lamp.transform)) {
-      warn(lamp.name, "its transform is not finite; the light is left out");
-      return;
-    }
-    Rgb strength(1.0f);
-    if (lamp.graph) {
-      strength = everywhere(compile(*lamp.graph, lamp.name, {}, scene_.diagnostics), lamp.name);
-    }
-    const Rgb power = lamp_power(lamp, strength);
-    if (!janus::is_finite(power)) {
-      warn(lamp.name, "its power is not finite; the light is left out");
-      return;
-    }
-    if (power.x < 0.0f || power.y < 0.0f || power.z < 0.0f) {
-      warn(lamp.name, "negative light is not supported; the light is left out");
-      return;
-    }
-    if (is_black(power)) {
-      return;
-    }
-    switch (lamp.type) {
-      case LightType::Point:
-        add_point(lamp, strength);
-        break;
-      case LightType::Spot:
-        add_spot(lamp, strength);
-        break;
-      case LightType::Area:
-        add_area(lamp, strength);
-        break;
-      case LightType::Sun:
-        add_sun(lamp, strength);
-        break;
-    }
-  }
-
-  void add_point(const LightDesc& lamp, Rgb strength) {
-    if (!std::isfinite(lamp.radius)) {
-      warn(lamp.name, "its radius is not finite; the light is left out");
-      return;
-    }
-    const bool sphere = !lamp.soft_falloff && lamp.radius > 0.0f;
-    add_light(make_point_light(lamp, strength, sphere && surfaces_near(lamp)));
-  }
-
-  void add_spot(const LightDesc& lamp, Rgb strength) {
-    const float volume = glm::determinant(mat3(lamp.transform));
-    if (volume == 0.0f || !std::isfinite(volume)) {
-      warn(lamp.name, "a spot light that is scaled to nothing does not shine; it is left out");
-      return;
-    }
-    if (!(lamp.spot_size > 0.0f) || !std::isfinite(lamp.spot_blend)) {
-      warn(lamp.name, "a spot light without a beam does not shine; it is left out");
-      return;
-    }
-    add_point(lamp, strength);
-  }
-
-  void add_area(LightDesc& lamp, Rgb strength) {
-    const bool two_sizes = lamp.shape == AreaShape::Rectangle || lamp.shape == AreaShape::Ellipse;
-    const vec3 u = lamp.size * vec3(lamp.transform[0]);
-    const vec3 v = (two_sizes ? lamp.size_y : lamp.size) * vec3(lamp.transform[1]);
-    const float area = glm::length(cross(u, v));
-    const float volume = glm::determinant(mat3(lamp.transform));
-    if (!(area > 0.0f) || !std::isfinite(area) || !std::isfinite(volume) || volume == 0.0f) {
-      warn(lamp.name, "an area light without an area does not shine; it is left out");
-      return;
-    }
-    if (!(lamp.spread >= kMinSpread)) {
-      warn(lamp.name, "a spread below 0.1 degrees is not supported; 0.1 is used");
-      lamp.spread = kMinSpread;
-    }
-    add_light(make_area_light(lamp, strength));
-  }
-
-  void add_sun(const LightDesc& lamp, Rgb strength) {
-    const float length = glm::length(vec3(lamp.transform[2]));
-    if (!(length > 0.0f) || !std::isfinite(length) || !std::isfinite(lamp.angle)) {
-      warn(lamp.name, "its direction or its angle is not defined; the light is left out");
-      return;
-    }
-    add_light(make_sun_light(lamp, strength, surroundings()));
   }
 
   // Around all surfaces.
@@ -307,11 +253,10 @@ class Commit {
     return false;
   }
 
-  static constexpr float kMinSpread = 0.1f * kPi / 180.0f;
-
   Scene& scene_;
   const CancelToken& cancel_;
-  std::map<std::string, uint32_t> mesh_index_, program_index_;
+  std::map<std::string, uint32_t> mesh_index_;
+  std::map<std::string, ProgramsByRay> program_index_;
 };
 
 }  // namespace
@@ -355,7 +300,7 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   commit.set_objects(*camera_);
   commit.build_accel();
   commit.add_mesh_lights();
-  commit.add_lamps(lights_);
+  commit.add_lamps(lights_, images_, *camera_);
   if (world_) {
     commit.add_world(*world_, images_, *camera_);
   }

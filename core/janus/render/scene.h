@@ -32,6 +32,12 @@ class Scene {
     }
     return hit;
   }
+  // Makes `hit` the same point of a copy of what it is on (Instance::first_copy).
+  void turn_to_copy(SurfaceInteraction& hit, uint32_t copy) const {
+    const Instance& instance = instances[copy];
+    hit.instance = copy;
+    hit.material = instance.material(meshes[instance.mesh].triangles()[hit.primitive].material);
+  }
   // What the surface does there, seen from the unit direction `view`.
   void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result) const {
     surfaces.shade(hit, view, result);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "janus/math/warp.h"
-#include "janus/shading/closures.h"
+#include "janus/render/onlookers.h"
 #include "janus/shading/node_reader.h"
 
 namespace janus {
@@ -168,48 +168,48 @@ std::optional<NodeLink> top_closure(const NodeGraph& graph, RayType ray) {
   return top;
 }
 
-// What some rays see of a world: a picture, or a program. `seen_by`: the camera, and labels.
-struct Part {
-  RayMask seen_by;
+// A picture that some rays see.
+struct SeenPicture {
+  RayMask seen_by;      // the camera, and labels
   std::string closure;  // of the picture
-  std::optional<EnvironmentMap> picture;
-  Program program;
+  EnvironmentMap picture;
 };
 
-// One part for each answer that Light Path gives.
-std::vector<Part> parts(const WorldDesc& world, const ImageMap& images, Diagnostics& diagnostics) {
-  constexpr RayType kRays[] = {RayType::Camera, RayType::Diffuse, RayType::Glossy,
-                               RayType::Transmission};
-  const bool by_ray = std::ranges::any_of(
-      world.graph->nodes, [](const Node& node) { return node.type == "LIGHT_PATH"; });
+// What a world is, by who looks at it.
+struct Parts {
+  std::vector<SeenPicture> pictures;
+  std::vector<SeenProgram> programs;
+};
+
+Parts find_parts(const WorldDesc& world, const ImageMap& images, Diagnostics& diagnostics) {
+  const bool by_ray = asks_for_rays(*world.graph);
   PictureOfWorld finder(world, images, diagnostics);
-  std::vector<Part> parts;
-  for (const RayType ray : kRays) {
-    if (!by_ray && !parts.empty()) {
-      break;
-    }
+  Parts parts;
+  for (const RayType ray : kOnlookers) {
     const auto top = top_closure(*world.graph, ray);
     const auto known = std::ranges::find_if(
-        parts, [&](const Part& part) { return part.picture && top && part.closure == top->node; });
-    if (known != parts.end()) {
+        parts.pictures, [&](const SeenPicture& seen) { return top && seen.closure == top->node; });
+    if (known != parts.pictures.end()) {
       known->seen_by |= ray_bit(ray);
-      continue;
-    }
-    if (auto picture = top ? finder.find(*top) : std::nullopt) {
-      parts.push_back({ray_bit(ray), top->node, std::move(picture), {}});
-      continue;
-    }
-    Program program = compile(*world.graph, world.name, images, diagnostics, ray);
-    const auto same = std::ranges::find_if(
-        parts, [&](const Part& part) { return !part.picture && part.program.emits_like(program); });
-    if (same != parts.end()) {
-      same->seen_by |= ray_bit(ray);
+    } else if (auto picture = top ? finder.find(*top) : std::nullopt) {
+      parts.pictures.push_back({ray_bit(ray), top->node, std::move(*picture)});
     } else {
-      parts.push_back({ray_bit(ray), "", std::nullopt, std::move(program)});
+      Diagnostics said;
+      add_seen(parts.programs, ray,
+               compile(*world.graph, world.name, images, said, {SeenTree::Of::World, ray}));
+      add_new(diagnostics, said);
+    }
+    if (!by_ray) {
+      break;
     }
   }
-  if (parts.size() == 1) {
-    parts[0].seen_by = kAllRays;
+  if (parts.pictures.size() + parts.programs.size() == 1) {
+    for (auto& picture : parts.pictures) {
+      picture.seen_by = kAllRays;
+    }
+    for (auto& program : parts.programs) {
+      program.seen_by = kAllRays;
+    }
   }
   return parts;
 }
@@ -232,11 +232,6 @@ void check_window(const WorldDesc& world, const CameraView& camera, Diagnostics&
   }
 }
 
-bool scatters(const Program& program) {
-  const auto scatters = [](const Closure& c) { return c.decl->traits.lobes > 0; };
-  return !program.lobes.empty() || std::ranges::any_of(program.closures, scatters);
-}
-
 }  // namespace
 
 std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const ImageMap& images,
@@ -253,17 +248,18 @@ std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const Ima
     return lights;
   }
   check_window(world, camera, diagnostics);
-  std::vector<Part> all = parts(world, images, diagnostics);
-  if (std::ranges::any_of(all, [](const Part& part) { return scatters(part.program); })) {
+  Parts parts = find_parts(world, images, diagnostics);
+  if (std::ranges::any_of(parts.programs, [](const auto& p) { return scatters(p.program); })) {
     diagnostics.push_back(
         {Severity::Warning, "", world.name, "", "a surface shader in a world has no effect"});
   }
-  for (auto& [seen_by, closure, picture, program] : all) {
-    if (picture) {
-      if (!picture->black()) {
-        add(make_environment_light(std::move(*picture), scene), seen_by);
-      }
-    } else if (program.varying_emission) {
+  for (auto& [seen_by, closure, picture] : parts.pictures) {
+    if (!picture.black()) {
+      add(make_environment_light(std::move(picture), scene), seen_by);
+    }
+  }
+  for (auto& [seen_by, program] : parts.programs) {
+    if (program.varying_emission) {
       const bool sampled = (world.visibility & seen_by & kLabels) != 0;
       add(make_environment_light(ProgramSky(std::move(program), camera, sampled, cancel), scene),
           seen_by);

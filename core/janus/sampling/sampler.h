@@ -48,7 +48,12 @@ inline float to_unit(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f;
 }  // namespace detail
 
 // Streams never share a dimension: light and camera subpaths of a path must be independent.
-enum class Stream : uint32_t { Camera = 0x43414d45, Light = 0x4c494748, Pilot = 0x50494c4f };
+enum class Stream : uint32_t {
+  Camera = 0x43414d45,
+  Light = 0x4c494748,
+  Pilot = 0x50494c4f,
+  Specular = 0x53504543
+};
 
 class Sampler {
  public:

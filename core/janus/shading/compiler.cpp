@@ -18,11 +18,11 @@ constexpr Operation kShareOfFirst =
 class ClosureTree {
  public:
   ClosureTree(const NodeGraph& graph, const std::string& material, const ImageMap& images,
-              Diagnostics& diagnostics, std::optional<RayType> world_ray)
+              Diagnostics& diagnostics, SeenTree seen)
       : graph_(graph),
         material_(material),
         diagnostics_(diagnostics),
-        compiler_(graph, material, images, diagnostics, world_ray) {}
+        compiler_(graph, material, images, diagnostics, seen) {}
 
   Program compile() {
     if (graph_.surface) {
@@ -104,8 +104,8 @@ class ClosureTree {
 }  // namespace
 
 Program compile(const NodeGraph& graph, const std::string& material, const ImageMap& images,
-                Diagnostics& diagnostics, std::optional<RayType> world_ray) {
-  return ClosureTree(graph, material, images, diagnostics, world_ray).compile();
+                Diagnostics& diagnostics, SeenTree seen) {
+  return ClosureTree(graph, material, images, diagnostics, seen).compile();
 }
 
 std::vector<std::string> required_attributes(const NodeGraph& graph) {

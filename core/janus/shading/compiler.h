@@ -10,8 +10,8 @@
 #include "janus/scene/description.h"
 #include "janus/scene/diagnostics.h"
 #include "janus/scene/node_graph.h"
-#include "janus/scene/ray_type.h"
 #include "janus/shading/program.h"
+#include "janus/shading/seen_tree.h"
 
 namespace janus {
 
@@ -19,14 +19,13 @@ using ImageMap = std::map<std::string, ImageDesc>;
 
 // Compiles a flattened node graph. Never fails: what it cannot do becomes a Diagnostic that names
 // `material` and the node, and the nearest closure or the socket's constant is used instead.
-// `world_ray`: the graph is that of a world, as rays of this type see it, Camera or a label;
-// without one it is that of a surface.
+// `seen`: of what it is the graph, and who looks; that makes a difference to Light Path alone.
 Program compile(const NodeGraph& graph, const std::string& material, const ImageMap& images,
-                Diagnostics& diagnostics, std::optional<RayType> world_ray = std::nullopt);
+                Diagnostics& diagnostics, SeenTree seen = kAnySurface);
 
-// What Light Path answers in the tree of a world that rays of this type see; nullopt: that output
-// is not supported.
-std::optional<bool> light_path_answer(RayType world_ray, std::string_view output);
+// What Light Path answers in the tree of a world or a lamp that rays of this type see; nullopt:
+// that output is not supported.
+std::optional<bool> light_path_answer(RayType ray, std::string_view output);
 
 // The keys of the mesh attributes that the program of a graph reads: see node_emitter.h.
 std::vector<std::string> required_attributes(const NodeGraph& graph);

@@ -20,13 +20,8 @@ constexpr Operation kLuminance =
 }  // namespace
 
 GraphCompiler::GraphCompiler(const NodeGraph& graph, const std::string& material,
-                             const ImageMap& images, Diagnostics& diagnostics,
-                             std::optional<RayType> world_ray)
-    : graph_(graph),
-      material_(material),
-      images_(images),
-      diagnostics_(diagnostics),
-      world_ray_(world_ray) {
+                             const ImageMap& images, Diagnostics& diagnostics, SeenTree seen)
+    : graph_(graph), material_(material), images_(images), diagnostics_(diagnostics), seen_(seen) {
   for (const Node& node : graph.nodes) {
     nodes_.emplace(node.name, &node);
   }

@@ -19,7 +19,7 @@ namespace janus {
 class GraphCompiler {
  public:
   GraphCompiler(const NodeGraph& graph, const std::string& material, const ImageMap& images,
-                Diagnostics& diagnostics, std::optional<RayType> world_ray);
+                Diagnostics& diagnostics, SeenTree seen);
 
   // Values.
   Value constant(vec3 x, SocketType type);
@@ -34,7 +34,7 @@ class GraphCompiler {
   // The number of the first of the two points that lie `width` pixels to the side of the point;
   // nullopt: there are too many already.
   std::optional<uint16_t> shifted_points(float width);
-  std::optional<RayType> world_ray() const { return world_ray_; }
+  SeenTree seen() const { return seen_; }
 
   // What instructions refer to by `data`.
   uint32_t attribute(const std::string& key);
@@ -88,7 +88,7 @@ class GraphCompiler {
   const std::string& material_;
   const ImageMap& images_;
   Diagnostics& diagnostics_;
-  std::optional<RayType> world_ray_;
+  SeenTree seen_;
   std::map<std::string_view, const Node*> nodes_;
 
   std::vector<Definition> values_;

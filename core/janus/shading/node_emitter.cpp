@@ -36,7 +36,7 @@ bool NodeEmitter::is_constant(Value value, vec3 x) const {
   return found && *found == x;
 }
 
-std::optional<RayType> NodeEmitter::world_ray() const { return compiler_.world_ray(); }
+SeenTree NodeEmitter::seen() const { return compiler_.seen(); }
 
 Value NodeEmitter::constant(float x) { return compiler_.constant(vec3(x), SocketType::Float); }
 Value NodeEmitter::constant(vec3 x) { return compiler_.constant(x, SocketType::Vector); }

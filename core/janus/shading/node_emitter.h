@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "janus/scene/ray_type.h"
 #include "janus/shading/node_reader.h"
 #include "janus/shading/operation.h"
+#include "janus/shading/seen_tree.h"
 
 namespace janus {
 
@@ -44,8 +44,8 @@ class NodeEmitter {
   // For what Cycles does not look for at shifted points: emits at the point itself.
   NodeEmitter unshifted() const { return {compiler_, reader_, 0}; }
   bool linked(std::string_view identifier) const { return reader_.link(identifier) != nullptr; }
-  // In the tree of a world: the type of the rays that look at it.
-  std::optional<RayType> world_ray() const;
+  // Of what the tree is, and who looks.
+  SeenTree seen() const;
   // The value of an input that is a constant after folding.
   bool is_constant(Value value, float* x) const;
   // Is it this one?

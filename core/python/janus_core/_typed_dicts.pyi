@@ -21,7 +21,7 @@ class Stats(TypedDict):
     samples: int
     seconds: float
     paths: dict[Literal["camera", "light"], int]
-    rays: dict[Literal["camera", "light", "nee", "connection", "splat"], int]
+    rays: dict[Literal["camera", "specular", "light", "nee", "connection", "splat"], int]
     joins: dict[
         Literal[
             "connections", "connections_facing", "connections_evaluated", "nee", "splats", "merges"

@@ -45,7 +45,7 @@ NodeGraph leaf() {
 
 // Nothing smooth, so that every technique can make every path. The screen is between the lamp and
 // the floor, in the picture, and lit from both sides.
-SceneKit plates(RayMask screen, RayMask lamp = kAllRays) {
+SceneKit plates(RayMask screen, RayMask lamp = kAllRays, const NodeGraph& screen_of = leaf()) {
   LightDesc light = area_light({1.2f, -0.3f, 1.0f}, {0, 0, -0.9f}, 0.9f, 30);
   light.visibility = lamp;
   return SceneKit()
@@ -56,7 +56,7 @@ SceneKit plates(RayMask screen, RayMask lamp = kAllRays) {
            translation({-0.6f, 0.4f, -0.1f}) * rotation({0, 1, 0}, 1.3f))
       .add("window", plane(0.5f, 0.6f), leaf(),
            translation({0.3f, -1.4f, 0.1f}) * rotation({1, 0, 0}, 1.3f))
-      .add("screen", plane(1.1f, 1.3f), leaf(),
+      .add("screen", plane(1.1f, 1.3f), screen_of,
            translation({0.4f, -0.1f, -0.1f}) * rotation({0, 1, 0}, 0.4f), screen)
       .light("l", light)
       .camera({0, -2.6f, 0.8f}, {0, 0.2f, -0.7f}, 0.7f);
@@ -105,7 +105,8 @@ void expect_every_technique(const std::shared_ptr<const Scene>& scene,
 }
 
 void expect_agreement_of_integrators(const std::shared_ptr<const Scene>& scene,
-                                     const std::shared_ptr<const Scene>& plain) {
+                                     const std::shared_ptr<const Scene>& plain,
+                                     int light_tracing = 64) {
   EXPECT_TRUE(scene->diagnostics.empty());
   const auto picture = [&](const auto& of, IntegratorType integrator, int count, int seed) {
     RenderSettings settings = small_picture(integrator, samples(count));
@@ -116,7 +117,7 @@ void expect_agreement_of_integrators(const std::shared_ptr<const Scene>& scene,
   };
   const auto bdpt = picture(scene, IntegratorType::Bdpt, 24, 0);
   expect_agreement(bdpt, picture(scene, IntegratorType::PathTracer, 96, 0), 0.015);
-  expect_agreement(bdpt, picture(scene, IntegratorType::LightTracer, 64, 0), 0.02);
+  expect_agreement(bdpt, picture(scene, IntegratorType::LightTracer, light_tracing, 0), 0.02);
   EXPECT_GT(largest_z(picture(plain, IntegratorType::Bdpt, 24, 100), bdpt),
             3.0);  // the scene shows it
 }
@@ -321,6 +322,47 @@ TEST(RayVisibilityOf, AlphaOfTheFilm) {
     }
   }
 }
+
+// --- Light Path
+// ------------------------------------------------------------------------------
+
+// The screen, which glows as something else to the rays that answer yes: less in the way, too.
+NodeGraph asking(const std::string& output) {
+  const NodeGraph lit = combine("ADD_SHADER", plastic(Rgb(0.6f, 0.2f, 0.1f), 0.5f),
+                                combine("ADD_SHADER", emission(Rgb(0.6f, 0.9f, 0.5f), 2),
+                                        single("BSDF_TRANSPARENT", {{"Color", vec4(0.3f)}})));
+  NodeGraph graph = combine("MIX_SHADER", leaf(), lit);
+  for (Node& node : graph.nodes) {
+    if (node.name == graph.surface->node) {
+      node.inputs["Fac"] = link("Path", output);
+    }
+  }
+  graph.nodes.push_back(node("Path", "LIGHT_PATH", {}));
+  return graph;
+}
+
+class LightPathNode : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(LightPathNode, IntegratorsAgree) {
+  const auto scene = plates(kAllRays, kAllRays, asking(GetParam())).build();
+  EXPECT_EQ(scene->instances.size(), 6u);  // the screen is two
+  expect_agreement_of_integrators(scene, plates(kAllRays).build(), 256);
+}
+
+TEST_P(LightPathNode, EveryTechnique) {
+  expect_every_technique(plates(kAllRays, kAllRays, asking(GetParam())).build(),
+                         plates(kAllRays).build());
+}
+
+INSTANTIATE_TEST_SUITE_P(Outputs, LightPathNode,
+                         ::testing::Values("Is Camera Ray", "Is Shadow Ray", "Is Diffuse Ray",
+                                           "Is Glossy Ray", "Is Reflection Ray",
+                                           "Is Transmission Ray"),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::erase(name, ' ');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace janus::test

@@ -57,6 +57,24 @@ inline double beam(double size, double blend) {
   return 0.5 * (1 - std::cos(0.5 * size)) * (1 - 0.5 * blend);
 }
 
+// With a tree that depends on the direction and on the place.
+inline LightDesc by_nodes(LightDesc desc) {
+  const auto math = [](const char* name, const char* operation, const NodeInput& a,
+                       const NodeInput& b) {
+    Node n = node(name, "VECT_MATH", {{"Vector", a}, {"Vector_001", b}});
+    n.properties = {{"operation", std::string(operation)}};
+    return n;
+  };
+  NodeGraph graph = single("EMISSION", {{"Color", link("Sum", "Vector")}, {"Strength", 0.7f}});
+  graph.nodes.insert(graph.nodes.end(),
+                     {node("Where", "TEX_COORD", {}),
+                      math("Scaled", "MULTIPLY", link("Where", "Normal"), vec3(0.5f, -0.4f, -0.3f)),
+                      math("Moved", "ADD", link("Scaled", "Vector"), link("Where", "Object")),
+                      math("Sum", "ADD", link("Moved", "Vector"), vec3(1.4f, 1.3f, 1.2f))});
+  desc.graph = graph;
+  return desc;
+}
+
 // Geometry below the receiver sets the extent of the scene: light comes from around.
 inline SceneKit around() {
   return SceneKit().add("floor", plane(3, 3), {}, translation({0, 0, -0.1f}));
@@ -215,6 +233,17 @@ inline const LightCase kLightCases[] = {
            return around().world(sky(), 0.5f, "Closest", turn);
          },
      .projected = of_scene},
+    {.name = "point_by_nodes",
+     .make = [] { return lamp(by_nodes(point_light({0.2f, 0.1f, 1}, 7))); },
+     .hittable = false},
+    {.name = "point_soft_by_nodes",
+     .make = [] { return lamp(by_nodes(point_light({0.2f, 0.1f, 1}, 7, 0.3f))); }},
+    {.name = "sphere_by_nodes",
+     .make = [] { return lamp(by_nodes(point_light({0.2f, 0.1f, 1}, 7, 0.3f, false))); }},
+    {.name = "spot_by_nodes", .make = [] { return lamp(by_nodes(spot(0.2f, true))); }},
+    {.name = "area_by_nodes", .make = [] { return lamp(by_nodes(shaped(AreaShape::Rectangle))); }},
+    {.name = "sun_by_nodes",
+     .make = [] { return around().light("lamp", by_nodes(sun_light({0.3f, -1, 1}, 3, 0.5f))); }},
     {.name = "world_of_nodes",
      .make = [] { return world_of_nodes(around()); },
      .projected = of_scene},

@@ -54,7 +54,7 @@ TEST_P(Lights, EmitsItsPower) {
   Mean watts;
   for (int i = 0; i < 200000; ++i) {
     const auto e = light_.sample_emission(random_.next_2d(), random_.next_2d());
-    watts.add(e ? luminance(e->weight) : 0.0f);
+    watts.add(e ? luminance(e->weight * light_.tint(e->origin, e->direction)) : 0.0f);
   }
   EXPECT_NEAR(watts.mean() / light_.power(), 1, 0.003 + 4 * watts.error() / light_.power());
 }
@@ -75,7 +75,8 @@ TEST_P(Lights, IrradianceAgrees) {
 
     const auto e = light_.sample_emission(random_.next_2d(), random_.next_2d());
     const auto q = e ? landing(*e) : std::nullopt;
-    emitted.add(q && light_.endpoint(*e, *q) ? e->weight.x : 0.0f);  // flux over an area of 1
+    const auto z0 = q ? light_.endpoint(*e, *q) : std::nullopt;
+    emitted.add(z0 ? e->weight.x * light_.tint(*z0, e->direction).x : 0.0f);  // over an area of 1
   }
   EXPECT_TRUE(GetParam().nee ? agree(nee, emitted) : nee.mean() == 0);
   EXPECT_TRUE(GetParam().hittable ? agree(hit, emitted) : hit.mean() == 0);

@@ -44,6 +44,15 @@ const TransportCase kCases[] = {
     {"sun", [] { return room().light("l", sun_light({0.2f, -1, 0.5f}, 3, 0)); }, 32},
     {"sun_disk", [] { return room().light("l", sun_light({0.2f, -1, 0.5f}, 3, 0.5f)); }, 40},
     {"world_image", [] { return room().world(sky()); }, 128},
+    {"spot_by_nodes",
+     [] {
+       return room().light(
+           "l", by_nodes(spot_light({0.1f, 0, 0.7f}, {0, 0.3f, 0}, 60, 1.3f, 0.5f, 0.25f)));
+     },
+     32},
+    {"area_by_nodes",
+     [] { return room().light("l", by_nodes(area_light({0, 0, 0.9f}, {0.1f, 0, 0}, 0.8f, 40))); },
+     32},
     {"world_of_nodes",  // a light from behind the camera and from above: through the open side
      [] {
        return world_of_nodes(

@@ -341,32 +341,43 @@ TEST(Builder, PictureByRayType) {
   chosen.builder.set_world({"World", graph});
   const auto a = plain.build(), b = chosen.build();
   ASSERT_EQ(b->lights.size(), 2u);
-  EXPECT_EQ(b->lights[0]->visibility & (kLabels | ray_bit(RayType::Camera)),
-            ray_bit(RayType::Camera));
-  EXPECT_EQ(b->lights[1]->visibility, kLabels);
-  EXPECT_EQ(b->lights[1]->power(), a->lights[0]->power());
+  const Light &seen = *b->lights[0], &other = *b->lights[1];
+  EXPECT_EQ(other.visibility & (kLabels | ray_bit(RayType::Camera)), ray_bit(RayType::Camera));
+  EXPECT_EQ(seen.visibility, kLabels);
+  EXPECT_EQ(seen.power(), a->lights[0]->power());
   const Ray ray{vec3(0), normalize(vec3(1, 2, 0.5f))};
-  EXPECT_EQ(b->lights[1]->intersect(ray)->pdf_illumination,
-            a->lights[0]->intersect(ray)->pdf_illumination);
+  EXPECT_EQ(seen.intersect(ray)->pdf_illumination, a->lights[0]->intersect(ray)->pdf_illumination);
 }
 
-// A lamp whose light varies is not black without a word.
-TEST(Builder, NamesLightThatVaries) {
-  NodeGraph varying = emission(Rgb(1), 1);
-  varying.nodes[0].inputs["Color"] = link("Where", "Position");
-  varying.nodes.push_back(node("Where", "NEW_GEOMETRY", {}));
-  SceneKit kit;
+// A lamp with a tree that asks who looks is one light for each answer, each of its own brightness.
+TEST(Builder, LampsByRay) {
+  NodeGraph graph = emission(Rgb(1), 1);
+  graph.nodes[0].inputs["Strength"] = link("Path", "Is Glossy Ray");
+  graph.nodes.push_back(node("Path", "LIGHT_PATH", {}));
   LightDesc lamp = point_light({0, 0, 1}, 10);
-  lamp.name = "Lamp";
-  lamp.graph = varying;
-  kit.light("lamp", lamp);
-  const auto scene = kit.build();
-  std::vector<std::string> named;
-  for (const Diagnostic& d : scene->diagnostics) {
-    EXPECT_NE(d.message.find("varies"), std::string::npos) << d.message;
-    named.push_back(d.material);
-  }
-  EXPECT_EQ(named, (std::vector<std::string>{"Lamp"}));
+  lamp.graph = graph;
+  const auto scene = SceneKit().light("lamp", lamp).build();
+  EXPECT_TRUE(scene->diagnostics.empty());
+  ASSERT_EQ(scene->lights.size(), 1u);
+  EXPECT_EQ(scene->lights[0]->visibility,
+            ray_bit(RayType::Glossy) | ray_bit(RayType::Transmission));
+}
+
+// The brightness of a tree that varies is part of the lamp's power.
+TEST(Builder, LampsOfNodesKnowTheirPower) {
+  NodeGraph graph = emission(Rgb(1), 1);
+  graph.nodes[0].inputs["Strength"] = link("Split", "Z");
+  graph.nodes.push_back(node("Split", "SEPXYZ", {{"Vector", link("Where", "Normal")}}));
+  graph.nodes.push_back(node("Where", "TEX_COORD", {}));
+  LightDesc lamp = point_light({0, 0, 1}, 10);
+  const double plain = SceneKit().light("lamp", lamp).build()->lights[0]->power();
+  lamp.graph = graph;  // the cosine over a hemisphere, nothing over the other
+  const auto scene = SceneKit().light("lamp", lamp).build();
+  EXPECT_TRUE(scene->diagnostics.empty());
+  EXPECT_NEAR(scene->lights[0]->power() / plain, 0.25, 0.002);
+  EXPECT_FALSE(scene->lights[0]->sample_illumination({0, 0, 0}, 0, vec2(0.5f)));
+  const auto above = scene->lights[0]->sample_illumination({0, 0, 2}, 0, vec2(0.5f));
+  EXPECT_NEAR(above->radiance.x, 10 / (4 * kPi), 1e-4);
 }
 
 }  // namespace

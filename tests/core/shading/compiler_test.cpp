@@ -349,15 +349,18 @@ TEST(Compiler, LightPath) {
   NodeGraph graph = combine("MIX_SHADER", emission(Rgb(1), 1), emission(Rgb(1), 3));
   graph.nodes.back().inputs["Fac"] = link("Path", "Is Glossy Ray");
   graph.nodes.push_back(node("Path", "LIGHT_PATH", {}));
-  EXPECT_TRUE(warned(compiled(graph), "Path", "'Is Glossy Ray' is not supported"));
+  NodeGraph deep = graph;
+  deep.nodes[2].inputs["Fac"] = link("Path", "Ray Depth");
+  EXPECT_TRUE(warned(compiled(deep), "Path", "'Ray Depth' is not supported"));
   Diagnostics said;
-  const Program glossy = compile(graph, "World", {}, said, RayType::Glossy);
-  const Program camera = compile(graph, "World", {}, said, RayType::Camera);
+  const Program glossy = compile(graph, "World", {}, said, {SeenTree::Of::World, RayType::Glossy});
+  const Program camera = compile(graph, "World", {}, said, {SeenTree::Of::World, RayType::Camera});
   EXPECT_TRUE(said.empty());
   EXPECT_TRUE(glossy.constant() && camera.constant());
   EXPECT_EQ(glossy.emission, Rgb(3));
   EXPECT_EQ(camera.emission, Rgb(1));
-  EXPECT_TRUE(glossy.emits_like(compile(graph, "World", {}, said, RayType::Transmission)));
+  EXPECT_TRUE(glossy.emits_like(
+      compile(graph, "World", {}, said, {SeenTree::Of::World, RayType::Transmission})));
   EXPECT_FALSE(glossy.emits_like(camera));
 }
 

@@ -8,7 +8,8 @@ from mistakes.densities import DENSITIES
 from mistakes.film import FILM_AND_SAMPLES
 from mistakes.merges import MERGES
 from mistakes.paths import PATHS
+from mistakes.specular_walks import SPECULAR_WALKS
 from mistakes.values import VALUES
 from mistakes.views import VIEWS
 
-MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES
+MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES + SPECULAR_WALKS

@@ -256,6 +256,6 @@ DENSITIES = (
         BDPT,
         "static_cast<float>(cache_.size()) / (effort_.connections *"
         " static_cast<float>(wave_paths_));",
-        "vertices_per_path_ / effort_.connections;",
+        "cached_path_.vertices / effort_.connections;",
     ),
 )

@@ -100,10 +100,6 @@ constexpr std::string_view kGeometry[] = {"Position",    "Normal",     "Tangent"
 constexpr Operation kTrueNormal =
     by_side<[](const Context& c) { return c.point.facing(c.point.ng); }>;
 constexpr Operation kIncoming = by_view<[](const Context& c) { return c.point.view; }>;
-constexpr Operation kParametric = at_point<[](const Context& c) {
-  const vec2 b = c.point.barycentric;
-  return vec3(1.0f - b.x - b.y, b.x, 0.0f);
-}>;
 constexpr Operation kBackfacing =
     by_side<[](const Context& c) { return c.point.backfacing() ? 1.0f : 0.0f; }>;
 

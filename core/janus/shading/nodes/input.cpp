@@ -59,12 +59,15 @@ constexpr Operation kReflection = by_view<[](const Context& c) {
 }>;
 
 void emit_coordinates(NodeEmitter& e) {
-  const bool world = e.world_ray().has_value(), dupli = e.flag("from_instancer");
+  const bool world = e.seen().of == SeenTree::Of::World, lamp = e.seen().of == SeenTree::Of::Lamp;
+  const bool dupli = e.flag("from_instancer");
   e.output("Generated",
-           world ? e.emit(kPosition, {})
-                 : e.emit(kAttribute, {}, e.attribute(dupli ? "dupli_generated" : "generated")));
+           world  ? e.emit(kPosition, {})
+           : lamp ? e.emit(kObjectPoint, {})
+                  : e.emit(kAttribute, {}, e.attribute(dupli ? "dupli_generated" : "generated")));
   e.output("Normal", e.emit(kObjectNormal, {}));
-  e.output("UV", e.emit(kAttribute, {}, e.attribute(dupli ? "dupli_uv" : "uv:")));
+  e.output("UV", lamp ? e.emit(kParametric, {})
+                      : e.emit(kAttribute, {}, e.attribute(dupli ? "dupli_uv" : "uv:")));
   const std::vector<float>* other = e.list("object_matrix");
   e.output("Object", other && other->size() == 16 ? e.emit(kOtherObjectPoint, {}, e.table(*other))
                                                   : e.emit(kObjectPoint, {}));
@@ -110,11 +113,10 @@ constexpr std::string_view kLightPath[] = {
     "Ray Length",         "Ray Depth",         "Diffuse Depth",       "Glossy Depth",
     "Transmission Depth", "Transparent Depth", "Portal Depth"};
 
-// A world has a program for each type of ray, with the answers as constants.
+// There is a program for each type of ray, with the answers as constants.
 void emit_light_path(NodeEmitter& e) {
   for (const std::string_view output : kLightPath) {
-    const auto yes = e.world_ray() ? light_path_answer(*e.world_ray(), output) : std::nullopt;
-    if (yes) {
+    if (const auto yes = light_path_answer(e.seen().ray, output)) {
       e.output(output, e.constant(*yes ? 1.0f : 0.0f));
     }
   }
@@ -160,12 +162,12 @@ void emit_layer_weight(NodeEmitter& e) {
 
 // As in Cycles, what glass lets through is a glossy ray, too. The types do not tell mirrors from
 // rough surfaces, nor count bounces.
-std::optional<bool> light_path_answer(RayType world_ray, std::string_view output) {
-  const bool diffuse = world_ray == RayType::Diffuse, glossy = world_ray == RayType::Glossy;
-  const bool transmission = world_ray == RayType::Transmission;
+std::optional<bool> light_path_answer(RayType ray, std::string_view output) {
+  const bool diffuse = ray == RayType::Diffuse, glossy = ray == RayType::Glossy;
+  const bool transmission = ray == RayType::Transmission;
   const std::pair<std::string_view, bool> answers[] = {
-      {"Is Camera Ray", world_ray == RayType::Camera},
-      {"Is Shadow Ray", false},
+      {"Is Camera Ray", ray == RayType::Camera},
+      {"Is Shadow Ray", ray == RayType::Shadow},
       {"Is Diffuse Ray", diffuse},
       {"Is Glossy Ray", glossy || transmission},
       {"Is Reflection Ray", diffuse || glossy},

@@ -62,14 +62,7 @@ vec4 look_flat(const Context& c, vec3 p) { return picture(c, vec2(p)); }
 
 // The square [0, 1] becomes [-1, 1] first.
 vec4 look_sphere(const Context& c, vec3 p) {
-  const vec3 q = 2.0f * p - 1.0f;
-  const float length = glm::length(q);
-  vec2 uv(0.0f);
-  if (length > 0.0f) {
-    uv.x = q.x == 0.0f && q.y == 0.0f ? 0.0f : 0.5f * (1.0f - std::atan2(q.x, q.y) * kInvPi);
-    uv.y = 1.0f - std::acos(std::clamp(q.z / length, -1.0f, 1.0f)) * kInvPi;
-  }
-  return picture(c, uv);
+  return picture(c, direction_to_sphere(2.0f * p - 1.0f));
 }
 vec4 look_tube(const Context& c, vec3 p) {
   const vec3 q = 2.0f * p - 1.0f;

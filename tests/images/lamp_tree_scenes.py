@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cases for both.py: a floor and a block under one lamp with a node tree."""
+
+from __future__ import annotations
+
+from .light_scenes import LIGHTS, lamp
+from .world_scenes import environment, picture
+
+SIZE, SEEDS = 24, 4
+
+LAMPS = {
+    **{name: LIGHTS[name] for name in ("point", "point_soft", "point_sphere")},
+    **{name: LIGHTS[name] for name in ("spot", "spot_sheared", "sun", "sun_60")},
+    "area": dict(kind="AREA", shape="RECTANGLE", size=1.2, size_y=0.8),
+    "area_ellipse": LIGHTS["area_ellipse_scaled"],
+}
+
+
+def emission(t, color=(1.0, 1.0, 1.0, 1.0), strength=1.0):
+    return t.out("Emission", {"Color": color, "Strength": strength})
+
+
+def coordinate(node: str, output: str):
+    """An output as a colour. Cycles' lights can be negative, ours cannot."""
+
+    def build(t):
+        value = t.out(node, {}, output)
+        factors = {0: value, 1: (0.3,) * 3, 2: (0.6,) * 3}
+        color = t.out("VectorMath", factors, operation="MULTIPLY_ADD")
+        return emission(t, t.out("VectorMath", {0: color, 1: (0.0,) * 3}, operation="MAXIMUM"))
+
+    return build
+
+
+# --- Trees that artists make ---------------------------------------------------------------------
+
+
+def gobo(t):
+    """A picture in the beam, the classic way: the normal, flattened."""
+    x, y, z = t.node("SeparateXYZ", {0: t.coordinate("Normal")}).outputs
+    flat = [t.out("Math", {0: part, 1: z}, operation="DIVIDE") for part in (x, y)]
+    shifted = [t.out("Math", {0: part, 1: 0.5}, operation="ADD") for part in flat]
+    vector = t.out("CombineXYZ", {0: shifted[0], 1: shifted[1]})
+    image = picture("Gobo", 3)
+    return emission(t, t.out("TexImage", {0: vector}, image=image, interpolation="Closest"))
+
+
+def textured(t):
+    return emission(t, t.out("TexImage", {0: t.coordinate("UV")}, image=picture("Panel", 5)), 2.0)
+
+
+def surroundings(t):
+    return emission(t, environment(t, vector=t.coordinate("Normal")), 1.5)
+
+
+def tinted(t):
+    """Warm towards one side, and black behind."""
+    x, _, z = t.node("SeparateXYZ", {0: t.coordinate("Normal")}).outputs
+    warm = t.out("MapRange", {"Value": x, "From Min": -1.0, "To Min": 2000.0, "To Max": 9000.0})
+    front = t.out("Math", {0: z, 1: -1.0}, operation="MULTIPLY", use_clamp=True)
+    return emission(t, t.out("Blackbody", {0: warm}), front)
+
+
+COORDINATES = [
+    *(("TexCoord", name) for name in ("Normal", "UV", "Object")),
+    *(("NewGeometry", name) for name in ("Position", "Incoming")),
+]
+OTHERS = [
+    *(("TexCoord", name) for name in ("Generated", "Camera", "Reflection")),
+    *(("NewGeometry", name) for name in ("Normal", "Parametric")),
+    ("NewGeometry", "True Normal"),
+    ("NewGeometry", "Backfacing"),
+    ("ObjectInfo", "Location"),
+    ("ObjectInfo", "Color"),
+    ("CameraData", "View Vector"),
+]
+TREES = {
+    "spot_gobo": ("spot", gobo),
+    "spot_textured": ("spot", textured),
+    "area_textured": ("area", textured),
+    "point_surroundings": ("point", surroundings),
+    "point_tinted": ("point_soft", tinted),
+}
+CASES = {
+    **{
+        f"{name}_{node}_{output}".lower().replace(" ", "_"): (name, coordinate(node, output))
+        for name in LAMPS
+        for node, output in COORDINATES
+    },
+    **{
+        f"{name}_{node}_{output}".lower().replace(" ", "_"): (name, coordinate(node, output))
+        for name in ("point", "area", "sun_60")
+        for node, output in OTHERS
+    },
+    **TREES,
+}
+# For light paths, too.
+BOTH_WAYS = [*TREES, *(f"{name}_texcoord_object" for name in LAMPS)]
+
+
+def samples(name: str) -> int:
+    return 512 if name.startswith("spot") else 192
+
+
+def build(name: str):
+    import bpy
+
+    from scenes import kit
+    from tests.images.node_cases import Tree
+
+    scene = bpy.context.scene
+    kit.neutral_settings(scene, SIZE, SIZE, samples(name))
+    kit.world(scene)
+    white = kit.diffuse("White", (0.8, 0.75, 0.7))
+    corners = [(-1.5, -1.5, 0), (1.5, -1.5, 0), (1.5, 1.5, 0), (-1.5, 1.5, 0)]
+    kit.quad(scene, "Floor", corners, white)
+    kit.box(scene, "Block", (0.5, 0.4, 0.6), white).rotation_euler = (0, 0, 0.4)
+    kit.camera(scene, (0.0, -4.0, 3.2), (0.0, 0.1, 0.1), lens=55.0)
+    kit.limit_bounces(scene.cycles, 1)
+    kind, shader = CASES[name]
+    lamp(scene, **LAMPS[kind])
+    data = scene.objects["Lamp"].data
+    data.use_nodes = True
+    tree = data.node_tree
+    tree.nodes.clear()
+    output = tree.nodes.new("ShaderNodeOutputLight")
+    tree.links.new(shader(Tree(tree)), output.inputs["Surface"])
+    return scene
