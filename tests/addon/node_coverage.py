@@ -26,7 +26,7 @@ REFUSED = {
     "BSDF_VELVET": "closure",
     "DISPLACEMENT": "displacement; named for the material",
     "HAIR_INFO": "hair",
-    "LIGHT_FALLOFF": "varying lamps",
+    "LIGHT_FALLOFF": "the distance to what is lit",
     "OUTPUT_AOV": "passes; the picture is the same without it",
     "PARTICLE_INFO": "particles",
     "POINT_INFO": "point clouds",
@@ -38,7 +38,7 @@ REFUSED = {
     "TEX_CHECKER": "procedural texture",
     "TEX_GABOR": "procedural texture",
     "TEX_GRADIENT": "procedural texture",
-    "TEX_IES": "varying lamps",
+    "TEX_IES": "beams of IES files",
     "TEX_MAGIC": "procedural texture",
     "TEX_MUSGRAVE": "procedural texture",
     "TEX_NOISE": "procedural texture",
@@ -84,8 +84,8 @@ IDLE_ITEMS = {
 REMARKS = {
     "ATTRIBUTE": "rotations on edges, and instances in instances, are named",
     "BUMP": "a bump in the height of another bump is named",
-    "LIGHT_PATH": "in worlds, and there the questions for camera, diffuse, glossy, reflection and "
-    "transmission rays; the others are named",
+    "LIGHT_PATH": "which kind of ray asks: camera, shadow, diffuse, glossy, reflection or "
+    "transmission; counts of bounces, lengths and Is Singular Ray are named",
     "REPEAT_INPUT": "a number of iterations that is no constant is named",
     "TEX_COORD": "Window in the world of an orthographic camera is named",
 }
