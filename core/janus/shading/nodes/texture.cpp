@@ -159,7 +159,7 @@ uint32_t add_picture(NodeEmitter& e, const ImageDesc& image, Extension extension
   texture.extension = extension;
   // Colours are multiplied by alpha, unless somebody takes care of alpha.
   const bool unassociate = image.associated && e.output_linked("Alpha");
-  return e.texture(std::move(texture)) | (unassociate ? kUnassociate : 0);
+  return e.texture(std::move(texture)) | (unassociate ? uint32_t{kUnassociate} : 0U);
 }
 
 // `data` for the node's picture; where there is none, its outputs are Cycles' magenta.
