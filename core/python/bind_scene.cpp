@@ -79,6 +79,7 @@ void set_image(SceneBuilder& self, Key key, std::string name, const py::object& 
   image->width = static_cast<int>(a.shape(1));
   image->channels = static_cast<int>(a.shape(2));
   image->pixels.assign(values.data(), values.data() + values.size());
+  image->pack();
   self.set_image(key, {std::move(name), std::move(image), srgb, associated});
 }
 

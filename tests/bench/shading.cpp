@@ -18,8 +18,9 @@ constexpr int kPoints = 1 << 16, kRounds = 9;
 Image noise(int size, uint32_t seed) {
   Image image(size, size, 4);
   for (size_t i = 0; i < image.pixels.size(); ++i) {
-    image.pixels[i] = static_cast<float>(hash32(seed + static_cast<uint32_t>(i)) >> 8) * 0x1p-24f;
+    image.pixels[i] = static_cast<float>(hash32(seed + static_cast<uint32_t>(i)) >> 24) / 255.0f;
   }
+  image.pack();
   return image;
 }
 

@@ -42,7 +42,7 @@ float srgb_to_linear(float x) {
   if (x <= 0.04045f) {
     return x / 12.92f;
   }
-  return static_cast<float>(std::pow((static_cast<double>(x) + 0.055) / 1.055, 2.4));
+  return std::pow((x + 0.055f) / 1.055f, 2.4f);
 }
 
 }  // namespace
@@ -58,7 +58,13 @@ vec4 Texture::lookup(vec2 uv) const {
     if (x < 0 || y < 0) {
       return vec4(0.0f);
     }
-    const float* p = &image->pixels[(size_t(y) * width + x) * channels];
+    const size_t at = (static_cast<size_t>(y) * width + x) * channels;
+    if (!image->bytes.empty()) {
+      const uint8_t* p = &image->bytes[at];
+      const auto& value = image->value;
+      return vec4(value[p[0]], value[p[1]], value[p[2]], channels > 3 ? value[p[3]] : 1.0f);
+    }
+    const float* p = &image->pixels[at];
     return vec4(p[0], p[1], p[2], channels > 3 ? p[3] : 1.0f);
   };
   // Far out, whole numbers no longer fit; there is nothing to see there either.
