@@ -72,6 +72,7 @@ class _Flattener:
         self._links = LinkReader()
         self._names = {}  # (names of what is around it, its own) -> unique flat name
         self._taken = set()
+        self._folds = {}  # the same keys -> whether Blender computes the node
         self._pending = deque()
 
     def run(self) -> None:
@@ -124,10 +125,14 @@ class _Flattener:
             return True
         if not converts_constants_only() or node.type not in FOLDED_NODES or depth > MAX_DEPTH:
             return False
-        ends = (self._links.follow(s, scope) for s in node.inputs if s.enabled)
-        return all(
-            e is None or e.node is None or self._is_folded(e.node, e.scope, depth + 1) for e in ends
-        )
+        key = (*scope.labels, node.name)
+        if key not in self._folds:  # each node once: there are more ways to one than nodes
+            ends = (self._links.follow(s, scope) for s in node.inputs if s.enabled)
+            self._folds[key] = all(
+                e is None or e.node is None or self._is_folded(e.node, e.scope, depth + 1)
+                for e in ends
+            )
+        return self._folds[key]
 
     def _folded(self, node, scope: Scope) -> dict:
         """What is different where Blender computes the node: curves are no tables, and have limits;

@@ -238,6 +238,20 @@ def test_long_chain_does_not_overflow_the_stack(tree):
     assert len(flatten(tree)[0]["nodes"]) == 402  # and the implicit emission
 
 
+def test_many_ways_to_one_node_take_no_time(tree):
+    """Each doubles its input: 2^60 ways lead from the curve, which asks, to the number."""
+    last = add(tree, "Value").outputs[0]
+    for _ in range(60):
+        double = add(tree, "Math")
+        for socket in double.inputs[:2]:
+            tree.links.new(last, socket)
+        last = double.outputs[0]
+    curve = add(tree, "FloatCurve")
+    tree.links.new(last, curve.inputs["Value"])
+    to_output(tree, curve.outputs[0])
+    assert len(flatten(tree)[0]["nodes"]) == 62
+
+
 def test_graph_is_plain_data(tree):
     """JSON can hold every node type of this Blender with all its values and properties."""
     import json

@@ -22,7 +22,7 @@ from _measure import CapturedScene, Cycles, spread
 
 SIZE, BOUNCES, CYCLES_SAMPLES = 256, 8, 8
 FLOOR, AIM = 2.0, 4.0  # pt over Cycles
-BENCH = Path(janus_core.__file__).parents[2] / "tests" / "core" / "janus_shading_bench"
+BENCH = Path(janus_core.__file__).parents[2] / "tests" / "bench" / "janus_shading_bench"
 
 
 def main() -> None:

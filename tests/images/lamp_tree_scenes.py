@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from .light_scenes import LIGHTS, lamp
+from .light_scenes import LIGHTS, lamp, stage
 from .world_scenes import environment, picture
 
-SIZE, SEEDS = 24, 4
+SEEDS = 4
 
 LAMPS = {
     **{name: LIGHTS[name] for name in ("point", "point_soft", "point_sphere")},
@@ -103,20 +103,9 @@ def samples(name: str) -> int:
 
 
 def build(name: str):
-    import bpy
-
-    from scenes import kit
     from tests.images.node_cases import Tree
 
-    scene = bpy.context.scene
-    kit.neutral_settings(scene, SIZE, SIZE, samples(name))
-    kit.world(scene)
-    white = kit.diffuse("White", (0.8, 0.75, 0.7))
-    corners = [(-1.5, -1.5, 0), (1.5, -1.5, 0), (1.5, 1.5, 0), (-1.5, 1.5, 0)]
-    kit.quad(scene, "Floor", corners, white)
-    kit.box(scene, "Block", (0.5, 0.4, 0.6), white).rotation_euler = (0, 0, 0.4)
-    kit.camera(scene, (0.0, -4.0, 3.2), (0.0, 0.1, 0.1), lens=55.0)
-    kit.limit_bounces(scene.cycles, 1)
+    scene = stage(samples(name))
     kind, shader = CASES[name]
     lamp(scene, **LAMPS[kind])
     data = scene.objects["Lamp"].data

@@ -114,13 +114,14 @@ def sky(
         tree.links.new(node.outputs["Vector"], texture.inputs["Vector"])
 
 
-def build(name: str):
+def stage(count: int):
+    """The scene without its light, with so many samples."""
     import bpy
 
     from scenes import kit
 
     scene = bpy.context.scene
-    kit.neutral_settings(scene, SIZE, SIZE, samples(name))
+    kit.neutral_settings(scene, SIZE, SIZE, count)
     kit.world(scene)
     white = kit.diffuse("White", (0.8, 0.75, 0.7))
     corners = [(-1.5, -1.5, 0), (1.5, -1.5, 0), (1.5, 1.5, 0), (-1.5, 1.5, 0)]
@@ -128,6 +129,11 @@ def build(name: str):
     kit.box(scene, "Block", (0.5, 0.4, 0.6), white).rotation_euler = (0, 0, 0.4)
     kit.camera(scene, (0.0, -4.0, 3.2), (0.0, 0.1, 0.1), lens=55.0)
     kit.limit_bounces(scene.cycles, 1)
+    return scene
+
+
+def build(name: str):
+    scene = stage(samples(name))
     if name in LIGHTS:
         lamp(scene, **LIGHTS[name])
     else:

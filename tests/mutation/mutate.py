@@ -28,7 +28,7 @@ from mistakes import MISTAKES
 ROOT = Path(__file__).resolve().parents[2]
 COPY = ROOT / "build" / "mutation"
 BUILD = COPY / "build" / "release"  # as deep as the real one, so that ccache knows the objects
-COPIED = ("CMakeLists.txt", "core", "tests/core", "addon/blender_manifest.toml")
+COPIED = ("CMakeLists.txt", "core", "tests/core", "tests/bench", "addon/blender_manifest.toml")
 TIMEOUT = 900  # seconds for the tests of one mistake; one that runs longer was noticed
 RED, GREEN, STALE, BROKEN = "red", "GREEN", "STALE", "BROKEN"
 

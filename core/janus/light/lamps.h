@@ -7,7 +7,6 @@
 
 #include "janus/light/environment_map.h"
 #include "janus/light/light.h"
-#include "janus/light/program_light.h"
 #include "janus/light/program_sky.h"
 #include "janus/scene/description.h"
 

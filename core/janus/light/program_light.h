@@ -7,7 +7,6 @@
 
 #include "janus/light/light.h"
 #include "janus/shading/program.h"
-#include "janus/util/cancel.h"
 
 namespace janus {
 

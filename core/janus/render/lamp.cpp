@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/render/lamp.h"
 
+#include "janus/light/program_light.h"
 #include "janus/render/onlookers.h"
 
 namespace janus {

@@ -75,6 +75,16 @@ TEST(SpecularWalks, CalmGlints) {
   EXPECT_LT(error(bdpt(64)), 0.6 * error(pt));
 }
 
+// Walks of their own are counted by whole passes: threads change nothing.
+TEST(SpecularWalks, DoNotDependOnThreads) {
+  const auto scene = glints().build();
+  RenderSettings settings = bdpt(16);
+  settings.threads = 1;
+  const Image one = render(scene, settings);
+  settings.threads = 3;
+  EXPECT_EQ(one.pixels, render(scene, settings).pixels);
+}
+
 TEST(SpecularWalks, CostAQuarter) {
   const Counters c = work(glints());
   EXPECT_GT(c.specular_walks, 0u);

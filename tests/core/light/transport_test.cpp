@@ -23,7 +23,29 @@ SceneKit room() {
                         diffuse(Rgb(0.7f)));
 }
 
+// Bright off the plane of its centre: where it lies flat to its receiver, it hardly shines.
+LightDesc bright_off_the_middle(LightDesc desc) {
+  NodeGraph graph = single("EMISSION", {{"Strength", link("Times", "Value")}});
+  const auto math = [](const char* name, const char* operation, const NodeInput& a) {
+    Node n = node(name, "MATH", {{"Value", a}, {"Value_001", 8.0f}});
+    n.properties = {{"operation", std::string(operation)}};
+    return n;
+  };
+  graph.nodes.insert(
+      graph.nodes.end(),
+      {math("Times", "MULTIPLY", link("Off", "Value")), math("Off", "ABSOLUTE", link("Split", "Z")),
+       node("Split", "SEPXYZ", {{"Vector", link("Where", "Object")}}),
+       node("Where", "TEX_COORD", {})});
+  desc.graph = graph;
+  return desc;
+}
+
 const TransportCase kCases[] = {
+    {"soft_point_by_nodes",  // its disk turns to each receiver
+     [] {
+       return room().light("l", bright_off_the_middle(point_light({0.1f, 0, 0.1f}, 20, 0.5f)));
+     },
+     48},
     {"spot",
      [] { return room().light("l", spot_light({0.1f, 0, 0.9f}, {0, 0.2f, 0}, 30, 1.2f, 0.3f)); }},
     {"spot_soft",

@@ -5,10 +5,11 @@ from __future__ import annotations
 
 from mistake import one
 
-from mistakes.sources import BSDF, CONNECT, FLIGHT
+from mistakes.sources import BSDF, CONNECT, FLIGHT, FLIGHT_APART, SUBPATH
 
 MESH_LIGHT = "core/janus/light/mesh_light.cpp"
 TESTS = "*ShaderAgreement*:*Reshadings*"
+ONLOOKERS = "*LightPathNode*:*Lights*odes:*LightTransport*odes"
 
 VIEWS = (
     one(
@@ -64,5 +65,50 @@ VIEWS = (
         CONNECT,
         "joined.camera = Scene::End::B;",
         "",
+    ),
+    one(
+        "one-copy-is-met",
+        0,
+        "light walks end at one copy of a surface alone, whatever others there are in its place",
+        ONLOOKERS,
+        FLIGHT_APART,
+        "may_end(copy) ? v.shading",
+        "i == 0 && may_end(copy) ? v.shading",
+    ),
+    one(
+        "copies-share-a-material",
+        0,
+        "a copy of a surface is shaded as the one that was met",
+        ONLOOKERS,
+        "core/janus/render/scene.h",
+        "hit.material = instance.material(",
+        "(void)instance.material(",
+    ),
+    one(
+        "one-copy-is-lit",
+        0,
+        "a light that is looked for is seen on one copy of a surface alone",
+        ONLOOKERS,
+        FLIGHT_APART,
+        "      scene.shade(hit, -ray.direction, shading);",
+        "      if (i > 0) break;\n      scene.shade(hit, -ray.direction, shading);",
+    ),
+    one(
+        "untinted-light-paths",
+        0,
+        "light paths do not know the node tree of a lamp",
+        ONLOOKERS,
+        SUBPATH,
+        "v.beta *= light.tint(*endpoint, emission->direction);",
+        "",
+    ),
+    one(
+        "tinted-where-rays-start",
+        0,
+        "the tree of a lamp is asked at the ray's origin, not where the path starts",
+        ONLOOKERS,
+        SUBPATH,
+        "light.tint(*endpoint, emission->direction)",
+        "light.tint(emission->origin, emission->direction)",
     ),
 )
