@@ -15,13 +15,10 @@ constexpr float kFirefly = 8.0f;
 
 // Costs relative to a camera ray with its vertex and its next event estimation; measured over
 // several scenes, within 15 %.
-constexpr double kLightRay = 0.67, kSplatRay = 0.65, kConnection = 0.25, kPathTracing = 0.92;
+constexpr double kLightRay = 0.67, kSplatRay = 0.65, kConnection = 0.25;
 
 double cost_of(const Effort& effort, const Counters& work) {
   const double camera = static_cast<double>(work.camera_rays);
-  if (effort == Effort{0.0f, 0.0f}) {
-    return kPathTracing * camera;
-  }
   return camera + effort.light_paths * (kLightRay * work.light_rays + kSplatRay * work.splat_rays) +
          effort.connections * kConnection * work.connections;
 }
@@ -98,7 +95,7 @@ Effort AdaptiveCounts::choose(const Moments& moments, const Counters& work,
   double least = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < kSize; ++i) {
     const Effort& effort = kCandidates[i];
-    if (needs_light_paths && (effort.light_paths == 0.0f || effort.connections == 0.0f)) {
+    if (needs_light_paths && effort.connections == 0.0f) {
       continue;
     }
     const double variance =

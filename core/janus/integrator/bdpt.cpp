@@ -270,6 +270,8 @@ class Bdpt final : public PassIntegrator {
           }
         },
         [&](const PathVertex& v, Sampler& walk) {
+          // Where there is little else to do, its one ray is worth its noise.
+          const Roulette nee_roulette = counts_.connection > 0.0f ? roulette : Roulette();
           if (v.edges == 1 && std::ranges::any_of(v.bsdf().lobes(), is_delta)) {
             specular_walks_.saw(index);
           }
@@ -277,7 +279,7 @@ class Bdpt final : public PassIntegrator {
             const VertexCache::Picks picks = counts_.connection > 0.0f
                                                  ? cache_.pick(effort_.connections, walk)
                                                  : VertexCache::Picks();
-            gather(next_event(v, roulette, walk, meter, counters));
+            gather(next_event(v, nee_roulette, walk, meter, counters));
             gather(connect(v, picks, roulette, walk, meter, counters));
             if (merges()) {
               context_.cancel.throw_if_cancelled();  // with a large radius there is much to do

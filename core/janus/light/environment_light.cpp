@@ -3,6 +3,7 @@
 
 #include "janus/light/infinite.h"
 #include "janus/light/lamps.h"
+#include "janus/math/warp.h"
 
 namespace janus {
 
@@ -12,12 +13,12 @@ namespace {
 // could, so it is left out of next event estimation.
 class ConstantEnvironment final : public InfiniteLight {
  public:
-  ConstantEnvironment(Rgb radiance, const Sphere& scene)
+  ConstantEnvironment(Rgb radiance, const SceneBox& scene)
       : InfiniteLight(scene), radiance_(radiance) {
     name = "World";
   }
 
-  float power() const override { return luminance(radiance_) * 4.0f * kPi * scene_.area(); }
+  float power() const override { return luminance(radiance_) * 4.0f * kPi * scene_.mean_area(); }
 
   bool hittable() const override { return true; }
   std::vector<Emitter> emitters() const override {
@@ -44,7 +45,7 @@ class ConstantEnvironment final : public InfiniteLight {
     if (ray.t_max < kInfinity) {
       return std::nullopt;
     }
-    return LightHit{kInfinity, radiance_, 0.0f, density(0.25f * kInvPi), kInfinity};
+    return LightHit{kInfinity, radiance_, 0.0f, density(ray.direction, 0.25f * kInvPi), kInfinity};
   }
 
  private:
@@ -56,11 +57,11 @@ class ConstantEnvironment final : public InfiniteLight {
 template <class Sky>
 class VaryingEnvironment final : public InfiniteLight {
  public:
-  VaryingEnvironment(Sky sky, const Sphere& scene) : InfiniteLight(scene), sky_(std::move(sky)) {
+  VaryingEnvironment(Sky sky, const SceneBox& scene) : InfiniteLight(scene), sky_(std::move(sky)) {
     name = "World";
   }
 
-  float power() const override { return sky_.total() * scene_.area(); }
+  float power() const override { return sky_.total() * scene_.mean_area(); }
 
   bool hittable() const override { return true; }
 
@@ -89,7 +90,7 @@ class VaryingEnvironment final : public InfiniteLight {
     if (!(pdf > 0.0f) || is_black(radiance)) {
       return std::nullopt;
     }
-    return illuminate(receiver, wi, radiance, pdf, density(pdf));
+    return illuminate(receiver, wi, radiance, pdf);
   }
 
   float pdf_illumination(const EmissionSample& sample, vec3 /*endpoint*/,
@@ -106,7 +107,7 @@ class VaryingEnvironment final : public InfiniteLight {
       return std::nullopt;
     }
     const float pdf = sky_.pdf_solid(ray.direction);
-    return LightHit{kInfinity, radiance, pdf, density(pdf), kInfinity};
+    return LightHit{kInfinity, radiance, pdf, density(ray.direction, pdf), kInfinity};
   }
 
  private:
@@ -115,15 +116,15 @@ class VaryingEnvironment final : public InfiniteLight {
 
 }  // namespace
 
-std::unique_ptr<Light> make_environment_light(Rgb radiance, const Sphere& scene) {
+std::unique_ptr<Light> make_environment_light(Rgb radiance, const SceneBox& scene) {
   return std::make_unique<ConstantEnvironment>(radiance, scene);
 }
 
-std::unique_ptr<Light> make_environment_light(EnvironmentMap map, const Sphere& scene) {
+std::unique_ptr<Light> make_environment_light(EnvironmentMap map, const SceneBox& scene) {
   return std::make_unique<VaryingEnvironment<EnvironmentMap>>(std::move(map), scene);
 }
 
-std::unique_ptr<Light> make_environment_light(ProgramSky sky, const Sphere& scene) {
+std::unique_ptr<Light> make_environment_light(ProgramSky sky, const SceneBox& scene) {
   return std::make_unique<VaryingEnvironment<ProgramSky>>(std::move(sky), scene);
 }
 

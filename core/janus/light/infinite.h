@@ -2,38 +2,33 @@
 #pragma once
 
 #include "janus/light/lamps.h"
-#include "janus/math/frame.h"
-#include "janus/math/warp.h"
 
 namespace janus {
 
-// What lights beyond all surfaces have in common: their rays come through a disk that covers the
-// scene, so the density of a ray is that of its direction over the disk's area.
+// What lights beyond all surfaces have in common: their rays enter the box that holds the scene, so
+// the density of a ray is that of its direction over the area that the box shows to it.
 class InfiniteLight : public Light {
  public:
-  explicit InfiniteLight(const Sphere& scene) : scene_(scene) {}
+  explicit InfiniteLight(const SceneBox& scene) : scene_(scene) {}
 
   bool infinite() const override { return true; }
 
  protected:
-  RayDensity density(float pdf_direction) const { return {pdf_direction / scene_.area(), false}; }
+  RayDensity density(vec3 direction, float pdf_direction) const {
+    return {pdf_direction / scene_.area(direction), false};
+  }
 
   EmissionSample emit(vec3 direction, vec2 u, Rgb radiance, float pdf_direction) const {
-    const vec2 disk = scene_.radius * square_to_disk(u);
-    const Frame frame(direction);
-    const vec3 origin =
-        scene_.center + disk.x * frame.s + disk.y * frame.t - 1.01f * scene_.radius * direction;
-    const RayDensity ray = density(pdf_direction);
-    return EmissionSample{origin, direction, radiance / ray.value, ray};
+    const RayDensity ray = density(direction, pdf_direction);
+    return EmissionSample{scene_.sample_entry(direction, u), direction, radiance / ray.value, ray};
   }
 
-  IlluminationSample illuminate(vec3 receiver, vec3 wi, Rgb radiance, float pdf,
-                                RayDensity emission) const {
-    const float beyond = glm::length(receiver - scene_.center) + 1.01f * scene_.radius;
-    return IlluminationSample{wi, receiver + beyond * wi, kInfinity, radiance, pdf, emission};
+  IlluminationSample illuminate(vec3 receiver, vec3 wi, Rgb radiance, float pdf) const {
+    return IlluminationSample{
+        wi, receiver + scene_.beyond(receiver) * wi, kInfinity, radiance, pdf, density(wi, pdf)};
   }
 
-  Sphere scene_;
+  SceneBox scene_;
 };
 
 }  // namespace janus

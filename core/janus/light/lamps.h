@@ -8,6 +8,7 @@
 #include "janus/light/environment_map.h"
 #include "janus/light/light.h"
 #include "janus/light/program_sky.h"
+#include "janus/light/scene_box.h"
 #include "janus/scene/description.h"
 
 namespace janus {
@@ -17,19 +18,12 @@ namespace janus {
 std::unique_ptr<Light> make_point_light(const LightDesc& desc, Rgb strength, bool inside = false);
 std::unique_ptr<Light> make_area_light(const LightDesc& desc, Rgb strength);
 
-// Where the surfaces of a scene are: infinite lights send their rays through a disk around it.
-struct Sphere {
-  vec3 center;
-  float radius;  // > 0
-
-  float area() const { return kPi * sqr(radius); }  // of the disk
-};
-std::unique_ptr<Light> make_sun_light(const LightDesc& desc, Rgb strength, const Sphere& scene);
+std::unique_ptr<Light> make_sun_light(const LightDesc& desc, Rgb strength, const SceneBox& scene);
 
 // A world of constant radiance, of a picture, or of a program.
-std::unique_ptr<Light> make_environment_light(Rgb radiance, const Sphere& scene);
-std::unique_ptr<Light> make_environment_light(EnvironmentMap map, const Sphere& scene);
-std::unique_ptr<Light> make_environment_light(ProgramSky sky, const Sphere& scene);
+std::unique_ptr<Light> make_environment_light(Rgb radiance, const SceneBox& scene);
+std::unique_ptr<Light> make_environment_light(EnvironmentMap map, const SceneBox& scene);
+std::unique_ptr<Light> make_environment_light(ProgramSky sky, const SceneBox& scene);
 
 // Colour times power of a lamp, in watts.
 inline Rgb lamp_power(const LightDesc& desc, Rgb strength) {

@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "janus/light/infinite.h"
+#include "janus/math/frame.h"
+#include "janus/math/warp.h"
 
 namespace janus {
 
@@ -10,7 +12,7 @@ namespace {
 // Blender's sun: a disk in the sky of constant radiance, or parallel light.
 class SunLight final : public InfiniteLight {
  public:
-  SunLight(const LightDesc& desc, Rgb strength, const Sphere& scene)
+  SunLight(const LightDesc& desc, Rgb strength, const SceneBox& scene)
       : InfiniteLight(scene),
         axis_(normalize(vec3(desc.transform[2]))),
         half_angle_(0.5f * std::clamp(desc.angle, 0.0f, kPi)),
@@ -23,7 +25,7 @@ class SunLight final : public InfiniteLight {
     set_rules(desc);
   }
 
-  float power() const override { return luminance(value_) / pdf_ * scene_.area(); }
+  float power() const override { return luminance(value_) / pdf_ * scene_.area(axis_); }
 
   bool hittable() const override { return !parallel(); }
 
@@ -42,7 +44,7 @@ class SunLight final : public InfiniteLight {
 
   std::optional<IlluminationSample> sample_illumination(vec3 receiver, uint32_t /*primitive*/,
                                                         vec2 u) const override {
-    return illuminate(receiver, direction(u), value_, pdf_, density(pdf_));
+    return illuminate(receiver, direction(u), value_, pdf_);
   }
 
   float pdf_illumination(const EmissionSample& /*sample*/, vec3 /*endpoint*/,
@@ -56,7 +58,7 @@ class SunLight final : public InfiniteLight {
         0.5f * length2(ray.direction - axis_) > one_minus_cos_) {
       return std::nullopt;
     }
-    return LightHit{kInfinity, value_, pdf_, density(pdf_), kInfinity};
+    return LightHit{kInfinity, value_, pdf_, density(ray.direction, pdf_), kInfinity};
   }
 
  private:
@@ -73,7 +75,7 @@ class SunLight final : public InfiniteLight {
 
 }  // namespace
 
-std::unique_ptr<Light> make_sun_light(const LightDesc& desc, Rgb strength, const Sphere& scene) {
+std::unique_ptr<Light> make_sun_light(const LightDesc& desc, Rgb strength, const SceneBox& scene) {
   return std::make_unique<SunLight>(desc, strength, scene);
 }
 

@@ -230,10 +230,7 @@ class Commit {
   }
 
   // Around all surfaces.
-  Sphere surroundings() const {
-    const Bounds& bounds = scene_.accel->bounds();
-    return {bounds.center(), std::max(bounds.radius(), 1e-3f)};
-  }
+  SceneBox surroundings() const { return SceneBox(scene_.accel->bounds()); }
 
   // Can a surface lie within the lamp's radius?
   bool surfaces_near(const LightDesc& lamp) const {

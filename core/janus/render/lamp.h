@@ -15,7 +15,7 @@ namespace janus {
 // What lamps have to know of a scene.
 struct LampSurroundings {
   CameraView camera;
-  Sphere scene;                                         // around all surfaces
+  SceneBox scene;                                       // around all surfaces
   std::function<bool(const LightDesc&)> surfaces_near;  // within the lamp's radius?
 };
 

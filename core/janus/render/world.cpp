@@ -235,7 +235,7 @@ void check_window(const WorldDesc& world, const CameraView& camera, Diagnostics&
 }  // namespace
 
 std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const ImageMap& images,
-                                               const CameraView& camera, const Sphere& scene,
+                                               const CameraView& camera, const SceneBox& scene,
                                                Diagnostics& diagnostics,
                                                const CancelToken& cancel) {
   std::vector<std::unique_ptr<Light>> lights;

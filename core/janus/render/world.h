@@ -16,7 +16,7 @@ namespace janus {
 // what rays it is seen (Light Path), each visible to those alone; else one. What cannot be rendered
 // as asked becomes a Diagnostic.
 std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const ImageMap& images,
-                                               const CameraView& camera, const Sphere& scene,
+                                               const CameraView& camera, const SceneBox& scene,
                                                Diagnostics& diagnostics, const CancelToken& cancel);
 
 }  // namespace janus

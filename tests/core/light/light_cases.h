@@ -75,14 +75,17 @@ inline LightDesc by_nodes(LightDesc desc) {
   return desc;
 }
 
-// Geometry below the receiver sets the extent of the scene: light comes from around.
+// Geometry around the receiver sets the extent of the scene: light comes from beyond.
 inline SceneKit around() {
-  return SceneKit().add("floor", plane(3, 3), {}, translation({0, 0, -0.1f}));
+  return SceneKit()
+      .add("floor", plane(3, 3), {}, translation({0, 0, -0.1f}))
+      .add("post", plane(0.1f, 0.1f), {}, translation({1.4f, 1.4f, 0.2f}));
 }
 
 inline double of_point(vec3) { return 1; }
 inline double of_ball(vec3) { return kPiD * 0.09; }
-inline double of_scene(vec3) { return kPiD * 4.5; }
+// A box of 3 x 3 x 0.3.
+inline double of_scene(vec3 d) { return 9 * std::abs(d.z) + 0.9 * (std::abs(d.x) + std::abs(d.y)); }
 
 // All brightnesses, twice as bright from above, and a small sun.
 inline Image sky() {
@@ -178,7 +181,7 @@ inline const LightCase kLightCases[] = {
      .projected = of_ball},
     {.name = "sun",
      .make = [] { return around().light("lamp", sun_light({1, 0.5f, 2}, 3, 0)); },
-     .watts = 3 * kPiD * 4.5,
+     .watts = 3 * of_scene(normalize(vec3(1, 0.5f, 2))),
      .hittable = false},
     {.name = "sun_disk",
      .make = [] { return around().light("lamp", sun_light({1, 0.5f, 2}, 3, 0.5f)); },
