@@ -13,10 +13,14 @@ struct Image {
   int width = 0, height = 0, channels = 0;
   std::vector<float> pixels;  // width * height * channels
 
-  // The same numbers in a quarter of the memory that lookups wander over, if pack() found that
-  // there are so few: value[bytes[i]] is pixels[i].
-  std::vector<uint8_t> bytes;
-  std::array<float, 256> value{};
+  // The same numbers as RGBA bytes, if pack() found that there are so few: a quarter of the memory
+  // that lookups wander over. Blocks of 4 x 4 pixels fill a cache line each, so that the neighbours
+  // of a pixel, above and below too, are mostly in the line that it is in.
+  struct alignas(64) Block {
+    std::array<std::array<uint8_t, 4>, 16> rgba;
+  };
+  std::vector<Block> blocks;       // rows of blocks
+  std::array<float, 256> value{};  // of a byte
 
   Image() = default;
   Image(int width, int height, int channels)
@@ -25,9 +29,15 @@ struct Image {
         channels(channels),
         pixels(static_cast<size_t>(width) * height * channels, 0.0f) {}
 
-  // Fills `bytes` if the pixels were bytes once, as those of most pictures. For pixels that stay as
-  // they are from now on.
+  // Fills `blocks` if the pixels were bytes once, as those of most pictures: their channels, and 1
+  // for an alpha that they lack. For pixels that stay as they are from now on.
   void pack();
+
+  int blocks_across() const { return (width + 3) / 4; }
+  const std::array<uint8_t, 4>& bytes(int x, int y) const {
+    const size_t row = static_cast<size_t>(y >> 2) * blocks_across();
+    return blocks[row + (x >> 2)].rgba[(y & 3) << 2 | (x & 3)];
+  }
 };
 
 }  // namespace janus

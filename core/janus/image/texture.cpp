@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/image/texture.h"
 
+#include <array>
 #include <cmath>
 
 namespace janus {
@@ -45,6 +46,30 @@ float srgb_to_linear(float x) {
   return std::pow((x + 0.055f) / 1.055f, 2.4f);
 }
 
+// The same from a table with straight lines between its entries, 5e-8 from it at most.
+class SrgbTable {
+ public:
+  float linear(float x) const {
+    if (!(x >= 0.0f && x < 1.0f)) {
+      return srgb_to_linear(x);
+    }
+    const float at = kSteps * x;
+    const int i = static_cast<int>(at);
+    return values_[i] + (at - static_cast<float>(i)) * (values_[i + 1] - values_[i]);
+  }
+
+ private:
+  static constexpr int kSteps = 4096;
+  std::array<float, kSteps + 1> values_ = [] {
+    std::array<float, kSteps + 1> values{};
+    for (int i = 0; i <= kSteps; ++i) {
+      values[i] = srgb_to_linear(static_cast<float>(i) / kSteps);
+    }
+    return values;
+  }();
+};
+const SrgbTable kSrgb;
+
 }  // namespace
 
 vec4 Texture::lookup(vec2 uv) const {
@@ -58,13 +83,12 @@ vec4 Texture::lookup(vec2 uv) const {
     if (x < 0 || y < 0) {
       return vec4(0.0f);
     }
-    const size_t at = (static_cast<size_t>(y) * width + x) * channels;
-    if (!image->bytes.empty()) {
-      const uint8_t* p = &image->bytes[at];
+    if (!image->blocks.empty()) {
+      const auto& p = image->bytes(x, y);
       const auto& value = image->value;
-      return vec4(value[p[0]], value[p[1]], value[p[2]], channels > 3 ? value[p[3]] : 1.0f);
+      return vec4(value[p[0]], value[p[1]], value[p[2]], value[p[3]]);
     }
-    const float* p = &image->pixels[at];
+    const float* p = &image->pixels[(static_cast<size_t>(y) * width + x) * channels];
     return vec4(p[0], p[1], p[2], channels > 3 ? p[3] : 1.0f);
   };
   // Far out, whole numbers no longer fit; there is nothing to see there either.
@@ -94,7 +118,7 @@ vec4 Texture::lookup(vec2 uv) const {
 
 vec4 Texture::decode(vec4 c) const {
   for (int i = 0; srgb && i < 3; ++i) {
-    c[i] = srgb_to_linear(c[i]);
+    c[i] = kSrgb.linear(c[i]);
   }
   return c;
 }
