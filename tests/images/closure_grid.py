@@ -14,11 +14,12 @@ from . import closure_cells
 
 PAGES, COLUMNS = 8, 8
 CELL = 12  # pixels of a ball's square
-SEEDS, SAMPLES, BOUNCES = 8, 128, 4
 RADIUS = 0.49
+FULL = "JANUS_FULL" in os.environ
+TIMES = 2 if FULL else 1  # samples of the quick run
+SEEDS, SAMPLES, BOUNCES = 8, 128 * TIMES, 4
 
-_CHOSEN = range(PAGES) if "JANUS_FULL" in os.environ else range(1)
-CASES = [f"page_{number}" for number in _CHOSEN]
+CASES = [f"page_{number}" for number in range(PAGES if FULL else 1)]
 
 
 def names(page: str) -> list[str]:

@@ -13,12 +13,12 @@ TOLERANCE = 0.01  # of each block's mean
 ERROR, MEDIAN = 0.005, 0.002  # its standard error: of the noisiest, and of most
 FIRM = 0.0025  # with such an error, one and a half per cent does not pass
 DARK = 0.1  # the surroundings have 0.5: what is darker is compared in hundredths of this
-SAMPLES = {"pt": 96, "bdpt": 80}
+SAMPLES = {"pt": 96 * closure_grid.TIMES, "bdpt": 80 * closure_grid.TIMES}
 
 
 @pytest.fixture(scope="module")
 def pictures(tmp_path_factory):
-    return made_by_both(closure_grid, tmp_path_factory.mktemp("closures"), timeout=1200.0)
+    return made_by_both(closure_grid, tmp_path_factory.mktemp("closures"), timeout=3600.0)
 
 
 def inside_the_balls(page: str) -> np.ndarray:
