@@ -57,6 +57,8 @@ class MaterialSync:
             self._log.warning("volumes are not supported yet", material=material.name)
         if output and output.inputs["Displacement"].is_linked:
             self._log.warning("displacement is not supported yet", material=material.name)
+        if not getattr(getattr(material, "cycles", None), "use_bump_map_correction", True):
+            self._log.warning("bump map correction is always on", material=material.name)
         return read_graph(tree, self._depsgraph)
 
 

@@ -54,6 +54,16 @@ def test_emission_sampling(scene, export, method):
     assert sent["sample_emission"] is (method != "NONE")
 
 
+def test_bump_map_correction_is_named(scene, export):
+    material = new_material()
+    add_square().data.materials.append(material)
+    export()
+    assert not any("bump map correction" in text for text in messages())
+    material.cycles.use_bump_map_correction = False
+    export()
+    assert any("bump map correction" in text for text in messages("WARNING"))
+
+
 @pytest.mark.parametrize("ray", ["camera", "diffuse", "glossy", "transmission"])
 def test_ray_visibility_of_lights_and_worlds(scene, export, ray):
     light = add_light("POINT", "Lamp")

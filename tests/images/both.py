@@ -7,7 +7,8 @@ starting Blender takes longer than such a picture. A module of cases has
 
 - CASES, the names, and SEEDS, how many pictures by Cycles;
 - build(case) -> scene: the scene in an empty file, with Cycles' settings and number of samples;
-- WARNED, if it is there: the cases of which Janus may warn.
+- WARNED, if it is there: the cases of which Janus may warn;
+- for_janus(scene), if it is there: what is different for Janus.
 
 Janus gets its settings as its users do: by copying them from Cycles.
 """
@@ -41,6 +42,7 @@ def main(cases: ModuleType, folder: Path, names: list[str]) -> int:
             bpy.ops.render.render()
             picture.save(scene, folder / f"{name}-{seed}.exr")
         scene.render.engine = addons.ENGINE
+        getattr(cases, "for_janus", lambda scene: None)(scene)
         with bpy.context.temp_override(scene=scene):
             bpy.ops.janus.copy_settings_from_cycles()
         scene.janus.samples = 1

@@ -21,7 +21,6 @@ CAPTURES = {
     "diffuse_box": (48, 48),
     "glass_box": (48, 48),
     "hero_soft": (64, 40),
-    "closures": (108, 48),
 }
 
 

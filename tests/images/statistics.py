@@ -26,7 +26,7 @@ degrees of freedom; below about 8 the tails of t are so wide that only gross err
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -129,6 +129,8 @@ class Comparison:
     level: float  # a p-value below it is a significant difference
     tests: int
     left_out: tuple[int, ...] = ()  # blocks that were too noisy to be tested
+    blocks: np.ndarray = field(default_factory=lambda: np.zeros(0))  # of each block: a / b - 1
+    errors: np.ndarray = field(default_factory=lambda: np.zeros(0))  # and its standard error
 
     @property
     def significant(self) -> bool:
@@ -143,6 +145,19 @@ class Comparison:
         assert self.error <= limit, f"too noisy to tell anything: {self}"
         assert not self.significant, f"the means differ: {self}"
         assert abs(self.difference) <= tolerance, f"the means differ: {self}"
+
+    def check_blocks(self, tolerance: float, error: float, names: list[str] | None = None) -> None:
+        """Asserts the same of every block, each of which may be `error` at most uncertain."""
+        names = names or [f"block {i}" for i in range(len(self.blocks))]
+        said = [
+            f"{name}: {100 * a:+.2f} % +- {100 * b:.2f} %"
+            for name, a, b in zip(names, self.blocks, self.errors, strict=True)
+        ]
+        noisy = [said[i] for i in np.flatnonzero(~(self.errors <= error))]
+        assert not noisy, f"too noisy to tell anything: {noisy}"
+        off = [said[i] for i in np.flatnonzero(~(np.abs(self.blocks) <= tolerance))]
+        assert not off, f"the means differ: {off}"
+        assert not self.significant, f"the means differ: {self}"
 
     def __str__(self) -> str:
         return (
@@ -160,13 +175,14 @@ def compare(
     mask: np.ndarray | None = None,
     alpha: float = ALPHA,
     noisy: float | None = None,
+    dark: float = 1e-30,
 ) -> Comparison:
     """Compares the expectations of two sets of pictures, one picture per seed, [H, W, 3 or 4].
 
     Tests the mean over each block (all channels together) and of each channel over the whole
     picture. The seeds of all pictures must be different and the pictures of one set alike. Blocks
     whose relative standard error in `b` is above `noisy` are not tested: their means are far from
-    normal.
+    normal. The differences of blocks darker than `dark` are relative to that.
     """
     means_a = np.array([block_means(image, block, mask) for image in a])
     means_b = np.array([block_means(image, block, mask) for image in b])
@@ -183,6 +199,8 @@ def compare(
     t, p = welch(series_a, series_b)
     worst = int(p.argmin())
     names = [f"block {i}" for i in np.flatnonzero(tested)] + ["all red", "all green", "all blue"]
+    level = np.maximum(blocks_b.mean(axis=0), dark)
+    scatters = blocks_a.var(axis=0, ddof=1) / len(a) + blocks_b.var(axis=0, ddof=1) / len(b)
     total_a, total_b = whole_a.mean(axis=1), whole_b.mean(axis=1)
     scatter = total_a.var(ddof=1) / len(a) + total_b.var(ddof=1) / len(b)
     reference = total_b.mean()
@@ -196,4 +214,6 @@ def compare(
         level=sidak(alpha, len(p)),
         tests=len(p),
         left_out=tuple(int(i) for i in np.flatnonzero(~tested)),
+        blocks=(blocks_a.mean(axis=0) - blocks_b.mean(axis=0)) / level,
+        errors=np.sqrt(scatters) / level,
     )

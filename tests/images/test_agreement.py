@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Path tracing, light tracing and BDPT render the same picture: within 0.3 %, and by blocks."""
 
+import itertools
+
 import numpy as np
 import pytest
 
+from . import material_scenes
+from .conftest import made_by_both
 from .statistics import compare
 
 TOLERANCE = 0.003
@@ -24,6 +28,26 @@ def test_integrators_agree(captured, scene, samples):
         found = compare(pictures["bdpt"], pictures[other], block=8)
         print(f"{scene}, bdpt against {other}: {found}")
         found.check(TOLERANCE)
+
+
+@pytest.fixture(scope="module")
+def materials(tmp_path_factory):
+    return made_by_both(material_scenes, tmp_path_factory.mktemp("materials"))
+
+
+@pytest.mark.parametrize("case", material_scenes.CASES)
+def test_integrators_agree_on_materials(materials, case):
+    captured, _ = materials(case)
+    samples = {"pt": 256, "lt": 320, "bdpt": 80}
+    times, left = (3, material_scenes.SEEN) if case in material_scenes.MIRRORS else (1, 0)
+    pictures = {name: captured.series(name, times * n, SEEDS) for name, n in samples.items()}
+    seen = np.ones(pictures["pt"][0].shape[:2], dtype=bool)
+    seen[:, :left] = False  # of what remains, there is less to average
+    for a, b in itertools.combinations(samples, 2):
+        mask = seen if "lt" in (a, b) else None
+        found = compare(pictures[a], pictures[b], block=8, mask=mask)
+        print(f"{case}, {a} against {b}: {found}")
+        found.check(TOLERANCE, error=0.5 * TOLERANCE)
 
 
 def test_automatic_counts_show_the_same_picture(captured):

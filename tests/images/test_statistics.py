@@ -90,6 +90,20 @@ def test_a_bias_in_one_place_is_found():
         assert result.where.startswith(("block 0", "block 4", "block 8"))
 
 
+def test_blocks_are_checked_one_by_one():
+    rng = np.random.default_rng(6)
+    right = compare(pictures(rng), pictures(rng), block=16)
+    right.check_blocks(0.05, 0.02)
+    with pytest.raises(AssertionError, match="too noisy"):
+        right.check_blocks(0.05, 1e-6)
+    wrong = compare(pictures(rng, 1.08, slice(0, 16)), pictures(rng), block=16)
+    with pytest.raises(AssertionError, match=r"the means differ: \['block 0: [+]8") as found:
+        wrong.check_blocks(0.05, 0.02)
+    assert "block 1:" not in str(found.value)
+    dim = [0.01 * p for p in pictures(rng)]
+    assert abs(compare([1.5 * p for p in dim], dim, block=16, dark=1.0).blocks).max() < 0.02
+
+
 def test_noise_is_no_proof():
     rng = np.random.default_rng(5)
     noisy = pictures(rng, noise=5.0)

@@ -245,7 +245,7 @@ class PathTracer final : public PassIntegrator {
       if (walk.edges + 1 > settings_.walk.max_edges || beyond_caps(walk.bounces)) {
         return sum;
       }
-      const BsdfView bsdf = shading.bsdf.view(hit->ng);
+      const BsdfView bsdf = shading.bsdf.view(hit->ng, hit->ns);
       sampler.start_block(walk.edges);
       if (bsdf.connectible() && scene.light_sampler.illuminates()) {
         sum += settings_.clamp(walk.beta * direct(*hit, bsdf, wo, walk, sampler, counters),

@@ -40,7 +40,7 @@ struct CacheBlock {
     vertices.push_back(out);
   }
   BsdfView bsdf(const LightVertex& v) const {
-    return {std::span(lobes).subspan(v.first_lobe, v.lobe_count), v.ng,
+    return {std::span(lobes).subspan(v.first_lobe, v.lobe_count), v.ng, v.ns,
             v.reshading < 0 ? nullptr : &reshadings[static_cast<size_t>(v.reshading)]};
   }
   size_t bytes() const {

@@ -27,7 +27,7 @@ struct Connection {
 
 // A light vertex as the cache keeps it.
 struct LightVertex {
-  vec3 p, ng;
+  vec3 p, ng, ns;
   float offset;
   vec3 wi;
   Rgb beta;

@@ -124,8 +124,12 @@ void BsdfView::reshade(const Directions& d, BsdfEval& sum) const {
   }
 }
 
+Directions BsdfView::directions(vec3 wo, vec3 wi) const {
+  return {wo, wi, dot(wo, ng_), dot(wi, ng_), ns_};
+}
+
 BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
-  const Directions d{wo, wi, dot(wo, ng_), dot(wi, ng_)};
+  const Directions d = directions(wo, wi);
   BsdfEval sum;
   if (d.wo_ng == 0.0f || d.wi_ng == 0.0f) {
     return sum;
@@ -149,7 +153,7 @@ float BsdfView::refracted_share(vec3 wo, vec3 wi, float max_alpha2) const {
     lobes_for_view(*reshading_, wo, seen);
     lobes = seen.lobes();
   }
-  const Directions d{wo, wi, dot(wo, ng_), dot(wi, ng_)};
+  const Directions d = directions(wo, wi);
   float all = 0.0f, clear = 0.0f;
   for (const Lobe& lobe : lobes) {
     if (!is_delta(lobe) && janus::transmits(lobe)) {

@@ -47,6 +47,7 @@ struct BsdfEval {
 };
 
 class Bsdf;
+struct Directions;
 struct Reshading;
 
 // The lobes of a surface that looks different from everywhere, seen from `view`; the direction for
@@ -56,15 +57,15 @@ vec3 view_of(const Reshading& reshading);
 bool alike(const Reshading& reshading, vec3 a, vec3 b);
 bool may_transmit(const Reshading& reshading);
 
-// A view of lobes at a point with geometric normal `ng` (unit, front side). Lobes of a cache may
-// leave out the deltas of the Bsdf that they come from.
+// A view of lobes at a point with geometric normal `ng` and shading normal `ns` (unit, front side).
+// Lobes of a cache may leave out the deltas of the Bsdf that they come from.
 //
 // Where lobes depend on the view (`reshading`), the value is that of the lobes seen from the camera
 // side; each density is that of the lobes seen from where its walk comes.
 class BsdfView {
  public:
-  BsdfView(std::span<const Lobe> lobes, vec3 ng, const Reshading* reshading = nullptr)
-      : lobes_(lobes), ng_(ng), reshading_(reshading) {}
+  BsdfView(std::span<const Lobe> lobes, vec3 ng, vec3 ns, const Reshading* reshading = nullptr)
+      : lobes_(lobes), ng_(ng), ns_(ns), reshading_(reshading) {}
 
   // True if some lobe is not a delta: the vertex can be joined to another one.
   bool connectible() const;
@@ -104,8 +105,10 @@ class BsdfView {
   void reshade_event(const Lobe& lobe, vec3 from, float u, TransportMode mode, vec3 to,
                      float probability, Rgb& color, float& other) const;
 
+  Directions directions(vec3 wo, vec3 wi) const;
+
   std::span<const Lobe> lobes_;
-  vec3 ng_;
+  vec3 ng_, ns_;
   const Reshading* reshading_;
 };
 
@@ -138,9 +141,10 @@ class Bsdf {
   // Sets the selection probabilities by the lobes' albedos.
   void finish();
 
-  BsdfView view(vec3 ng, const Reshading* reshading = nullptr) const {
-    return {lobes(), ng, reshading};
+  BsdfView view(vec3 ng, vec3 ns, const Reshading* reshading = nullptr) const {
+    return {lobes(), ng, ns, reshading};
   }
+  BsdfView view(vec3 n) const { return view(n, n); }
   std::span<const Lobe> lobes() const { return {lobes_, static_cast<size_t>(count_)}; }
   int size() const { return count_; }
 

@@ -18,6 +18,7 @@ constexpr float kCutoff = 1e-5f;
 void add_lobe(const ClosureArguments& a, Lobe lobe, ShadingResult& out) {
   if (!is_black(lobe.weight)) {
     lobe.normal = a.normal();
+    lobe.bumped = a.bumped();
     out.bsdf.add(lobe);
   }
 }
@@ -105,7 +106,7 @@ constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 1.0f},
 void add(const ClosureArguments& a, ShadingResult& out) {
   add_lobe(a,
            refraction_lobe(a.share() * a.positive_color(Color), usable_index(a.number(Ior)),
-                           sqr(a.fraction(Roughness))),
+                           sqr(a.number(Roughness))),  // Cycles clamps only the square
            out);
 }
 
@@ -137,7 +138,7 @@ namespace emission {
 constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 1.0f}, {"Strength", Float, 1.0f}};
 
 void add(const ClosureArguments& a, ShadingResult& out) {
-  out.emission += a.share() * a.positive_color(0) * std::max(a.number(1), 0.0f);
+  out.emission += a.share() * a.vector(0) * a.number(1);
 }
 }  // namespace emission
 
@@ -173,13 +174,17 @@ constexpr SocketDecl kInputs[] = {{"Base Color", Color, 0.8f},
                                   {"Thin Film Thickness", Float, 0.0f}};
 
 // The index of the specular layer: the level moves it away from the IOR's.
-float layer_index(float ior, float level) {
+float layer_index(float ior, float level, float f0) {
   if (level == 0.5f) {
     return ior;
   }
-  const float eta = index_from_fresnel_normal(2.0f * level * fresnel_normal(ior));
+  const float eta = index_from_fresnel_normal(f0);
   return ior < 1.0f ? 1.0f / eta : eta;
 }
+
+// No index has such a reflectance, but Cycles' layer does, which then is a mirror that hides what
+// is below it.
+constexpr float kMirror = 0.995f;
 
 // Cycles mixes from the outside in: alpha, metallic, transmission, and a dielectric layer over
 // diffuse. Each takes its part of the weight that the ones before have left.
@@ -209,7 +214,13 @@ void add(const ClosureArguments& a, ShadingResult& out) {
   if (weight == 0.0f) {
     return;
   }
-  const float eta = layer_index(ior, std::max(a.number(SpecularLevel), 0.0f));
+  const float level = std::max(a.number(SpecularLevel), 0.0f);
+  const float f0 = 2.0f * level * fresnel_normal(ior);
+  if (level != 0.5f && f0 > kMirror) {
+    add_lobe(a, glossy_lobe(Rgb(weight), width, a.multiscatter()), out);
+    return;
+  }
+  const float eta = layer_index(ior, level, f0);
   Lobe diffuse = rough_diffuse(weight * base, base, a.fraction(DiffuseRoughness));
   if (eta != 1.0f) {
     const Lobe layer = specular_lobe(Rgb(weight), eta, width, a.multiscatter());

@@ -22,14 +22,20 @@ struct Closure {
 // The parameters of a closure at a point.
 class ClosureArguments {
  public:
-  // `normal`: the shading normal where the closure has none of its own; front side.
+  // `normal`: the shading normal where the closure has none of its own; front side. `bumped`: it
+  // has one.
   ClosureArguments(const Closure& closure, const float* registers, const uint16_t* operands,
-                   vec3 normal)
-      : closure_(closure), registers_(registers), operands_(operands), normal_(normal) {}
+                   vec3 normal, bool bumped = false)
+      : closure_(closure),
+        registers_(registers),
+        operands_(operands),
+        normal_(normal),
+        bumped_(bumped) {}
 
   float share() const { return registers_[closure_.share]; }
   bool multiscatter() const { return closure_.multiscatter; }
   vec3 normal() const { return normal_; }
+  bool bumped() const { return bumped_; }
   // By the position of the input in the declaration. What is not finite counts as 0.
   float number(int input) const {
     const float x = registers_[operands_[input]];
@@ -48,6 +54,7 @@ class ClosureArguments {
   const float* registers_;
   const uint16_t* operands_;
   vec3 normal_;
+  bool bumped_;
 };
 
 extern const ClosureDecl kDiffuseClosure, kGlossyClosure, kGlassClosure, kRefractionClosure,

@@ -29,6 +29,12 @@ inline float index_from_fresnel_normal(float f0) {
   return (1.0f + root) / (1.0f - root);
 }
 
+// The reflectance of Cycles' dielectric closures: never less than straight on. Real ones of an
+// index above 4 or so dip below it towards Brewster's angle.
+inline float fresnel_closure(float cos_i, float eta) {
+  return std::max(fresnel_dielectric(cos_i, eta), fresnel_normal(eta));
+}
+
 // Reflectance averaged over the hemisphere (weight 2 cos): a fit by Kulla & Conty, "Revisiting
 // Physically Based Shading at Imageworks" (2017), which Cycles uses.
 inline float fresnel_dielectric_average(float eta) {

@@ -101,6 +101,9 @@ Program GraphCompiler::finish() {
   }
   bsdf.finish();
   program_.lobes.assign(bsdf.lobes().begin(), bsdf.lobes().end());
+  if (!program_.varying_emission) {  // else the sum at a point decides
+    program_.emission = glm::max(program_.emission, Rgb(0.0f));
+  }
   return std::move(program_);
 }
 

@@ -55,8 +55,7 @@ Lobe translucent_lobe(Rgb weight) { return lobe(LobeType::Translucent, weight); 
 
 Lobe glossy_lobe(Rgb weight, float alpha, bool multiscatter, Rgb color) {
   Lobe out = ggx_lobe(LobeType::Glossy, weight, alpha, multiscatter);
-  out.color = multiple_bounces(glm::clamp(color, 0.0f, 1.0f),
-                               reflection_albedo_average(std::sqrt(out.alpha)));
+  out.color = multiple_bounces(color, reflection_albedo_average(std::sqrt(out.alpha)));
   return out;
 }
 

@@ -34,6 +34,7 @@ struct Lobe {
   bool multiscatter;       // GGX with Cycles' energy scale; Layered: the layer above
   bool layered;            // attenuated by the reflectance of a Specular layer above
   bool tinted_reflection;  // Glass: `color` tints reflections too
+  bool bumped;             // the normal is the closure's own, not the surface's
 };
 
 // GGX lobes are a delta when alpha is 0.

@@ -52,11 +52,12 @@ void Program::run(const ShadingPoint& point, ShadingResult& result) const {
         normal = point.facing(facing / length);  // from the viewer's side to the front
       }
     }
-    closure.decl->add({closure, r, in, normal}, result);
+    closure.decl->add({closure, r, in, normal, normal != point.ns}, result);
   }
   if (result.bsdf.size() > placed) {
     result.bsdf.finish();
   }
+  result.emission = glm::max(result.emission, Rgb(0.0f));
 }
 
 bool Program::emits_like(const Program& other) const {

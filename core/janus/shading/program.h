@@ -18,7 +18,7 @@ namespace janus {
 // What a surface does at a point.
 struct ShadingResult {
   Bsdf bsdf;
-  Rgb emission = Rgb(0.0f);  // radiance, on both sides
+  Rgb emission = Rgb(0.0f);  // radiance, on both sides; of closures, a sum that may be below 0
   // Share of the light that passes straight through (Transparent BSDF, alpha): not a lobe, but a
   // crossing, which belongs to the walk.
   Rgb transparency = Rgb(0.0f);
@@ -63,8 +63,8 @@ enum class Dependence : uint8_t {
 class Program {
  public:
   // --- What does not vary over the surface.
-  std::vector<Lobe> lobes;  // with selection probabilities, without normals; at most kMaxLobes
-  Rgb emission = Rgb(0.0f);
+  std::vector<Lobe> lobes;   // with selection probabilities, without normals; at most kMaxLobes
+  Rgb emission = Rgb(0.0f);  // below 0, it dims what varies
   Rgb transparency = Rgb(0.0f);
   float holdout = 0.0f;
   bool sample_emission = true;  // MaterialDesc::sample_emission

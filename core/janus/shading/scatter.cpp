@@ -25,6 +25,20 @@ vec3 seen_normal(const Lobe& lobe, vec3 ng, vec3 w, float w_ng) {
 // Index of the far side relative to the side of a direction with cosine `w_ng` to Ng.
 float far_index(const Lobe& lobe, float w_ng) { return w_ng < 0.0f ? 1.0f / lobe.ior : lobe.ior; }
 
+// What Cycles leaves of light from `wi` on a diffuse lobe of normal `n` where the surface's own is
+// `ns`: nothing where it is above one of them and below the other; and less towards the horizon
+// where `n` is tilted, so that bumps do not end in the dark at once (Conty et al. 2019). Of light
+// through a translucent lobe it does so only where it looked for the light: that is left out here.
+float lit_bumps(vec3 n, vec3 ns, vec3 wi) {
+  const float cos_i = dot(ns, wi), cos_n = dot(ns, n);
+  if (cos_i * cos_n * dot(n, wi) < 0.0f || std::abs(cos_i) < 1e-6f) {
+    return 0.0f;
+  }
+  const float tan2 = 1.0f / std::max(sqr(cos_n), 1e-12f) - 1.0f;
+  const float alpha2 = std::clamp(0.125f * tan2, 0.0f, 1.0f);
+  return 1.0f / (1.0f + ggx_lambda(alpha2, std::abs(cos_i)));
+}
+
 // Diffuse lobes. f |wi . N| is weight/pi max(0, wi . N), on the side of wo or on the other one.
 // Camera walks draw wi by the cosine to N. Light walks draw wo by the cosine to Ng, because the
 // adjoint of the lobe is proportional to |wo . Ng|; this also reaches every wo for which the lobe
@@ -56,6 +70,9 @@ LobeEval evaluate_diffuse(const Lobe& lobe, vec3 ng, const Directions& d) {
   if (lobe.layered) {
     out.f *= layer_transmittance(lobe, cos_o);
   }
+  if (lobe.bumped) {
+    out.f *= lit_bumps(n, d.ns, d.wi);
+  }
   return out;
 }
 
@@ -77,7 +94,7 @@ Rgb reflectance(const Lobe& lobe, float cos) {
     case LobeType::Metal:
       return lobe.color + (1.0f - lobe.color) * schlick(cos);
     case LobeType::Specular:
-      return Rgb(fresnel_dielectric(cos, lobe.ior));
+      return Rgb(fresnel_closure(cos, lobe.ior));
     default:
       return Rgb(1.0f);
   }
@@ -90,7 +107,7 @@ struct GlassEvents {
   float pmf_reflect;
 
   GlassEvents(const Lobe& lobe, float cos, float eta) {
-    const float f = fresnel_dielectric(cos, eta);
+    const float f = fresnel_closure(cos, eta);
     if (lobe.type == LobeType::Refraction) {
       reflected = Rgb(0.0f);
       transmitted = Rgb(f < 1.0f ? 1.0f : 0.0f);  // total reflection is lost
@@ -111,7 +128,7 @@ Rgb energy_scale(const Lobe& lobe, float cos_o, float eta) {
   Rgb bounces = lobe.color;
   if (lobe.type == LobeType::Glass) {
     albedo = glass_albedo(rough, cos_o, eta);
-    bounces = multiple_bounces(glm::min(lobe.color, Rgb(1.0f)), glass_albedo_average(rough, eta));
+    bounces = multiple_bounces(lobe.color, glass_albedo_average(rough, eta));
   } else {
     albedo = reflection_albedo(rough, cos_o);
     if (lobe.type == LobeType::Metal) {

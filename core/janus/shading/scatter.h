@@ -13,6 +13,7 @@ namespace janus {
 struct Directions {
   vec3 wo, wi;
   float wo_ng, wi_ng;
+  vec3 ns;  // the surface's own shading normal
 
   bool same_side() const { return wo_ng * wi_ng > 0.0f; }
 };
@@ -57,9 +58,10 @@ float estimated_albedo(const Lobe& lobe, float cos);
 float layer_transmittance(const Lobe& lobe, float cos_o);
 
 // Colour of the light that leaves after several bounces between facets, for single bounces of
-// average reflectance `fss` and facets of average albedo `average` (Kulla & Conty 2017).
+// average reflectance `fss` and facets of average albedo `average` (Kulla & Conty 2017). The series
+// has no sum for colours that gain more than is lost: it is limited there.
 inline Rgb multiple_bounces(Rgb fss, float average) {
-  return fss * average / (1.0f - fss * (1.0f - average));
+  return fss * average / glm::max(1.0f - fss * (1.0f - average), Rgb(0.1f));
 }
 float specular_bounces(float eta, float rough);
 

@@ -234,7 +234,7 @@ TEST_P(Bsdfs, DeltasMayBeLeftOut) {
     }
   }
   EXPECT_EQ(kept.size() < bsdf_.lobes().size(), GetParam().delta);
-  const BsdfView cached(kept, kNg);
+  const BsdfView cached(kept, kNg, kNg);
   for (int i = 0; i < 200; ++i) {
     const vec3 wo = random_.direction(), wi = random_.direction();
     const BsdfEval a = bsdf_.evaluate(wo, wi, Radiance), b = cached.evaluate(wo, wi, Radiance);

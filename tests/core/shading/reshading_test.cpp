@@ -42,7 +42,7 @@ TEST_P(Reshadings, SampledWeightsIntegrateTheValue) {
     reshading.point.view = from;
     ShadingResult shading;
     program.run(reshading.point, shading);
-    const BsdfView bsdf = shading.bsdf.view(vec3(0, 0, 1), &reshading);
+    const BsdfView bsdf = shading.bsdf.view(vec3(0, 0, 1), vec3(0, 0, 1), &reshading);
     std::mt19937 random(5);
     std::uniform_real_distribution<float> uniform;
     const auto next_2d = [&] { return vec2(uniform(random), uniform(random)); };

@@ -114,6 +114,15 @@ VALUES = (
         "(density / (sqr(eta) * (1.0f + lambda_o + lambda_i)));",
     ),
     one(
+        "bumps-end-at-the-camera",
+        0,
+        "the end of light on a bump is taken from where one looks",
+        "*Bumps*",
+        SCATTER,
+        "out.f *= lit_bumps(n, d.ns, d.wi);",
+        "out.f *= lit_bumps(n, d.ns, d.wo);",
+    ),
+    one(
         "roulette-does-not-divide",
         1,
         "contributions that survive roulette are not made up for those that do not",
