@@ -98,6 +98,15 @@ def enum_items(kind: str, name: str):
 
 CASES = {}
 
+# What Cycles does in older Blenders only, or Janus cannot do there: (until, beginning of the name).
+OLDER = (
+    ((4, 5), "instancer nodes"),  # Python cannot ask; named
+    ((4, 5), "bump by coordinate Normal"),  # the normal has no slope
+    ((4, 5), "pieces bump by coordinate Normal"),
+    ((5, 0), "attribute GEOMETRY tangent_sign"),  # 0, unless tangents are asked for as well
+    ((5, 0), "image alpha in Rec.1886 CHANNEL_PACKED"),  # divided by an alpha that does not cover
+)
+
 
 def case(name):
     def keep(function):
@@ -111,13 +120,19 @@ def add_cases() -> None:
     """Fills CASES; needs bpy for the enums."""
     if CASES:
         return
-    from . import node_cases_groups, node_cases_images, node_cases_places
+    import bpy
+
+    from . import node_cases_constants, node_cases_groups, node_cases_images, node_cases_places
 
     math_cases()
     color_cases()
     node_cases_places.add_cases()
     node_cases_images.add_cases()
     node_cases_groups.add_cases()
+    node_cases_constants.add_cases()
+    older = tuple(name for until, name in OLDER if bpy.app.version < until)
+    for name in [n for n in CASES if n.startswith(older)]:
+        del CASES[name]
 
 
 def math_cases() -> None:

@@ -109,7 +109,7 @@ def space_cases() -> None:
     for space in ("ACEScg", "Rec.1886", "Linear Rec.2020", "sRGB", "Non-Color"):
         if space not in spaces:
             continue
-        for mode in ("STRAIGHT", "CHANNEL_PACKED", "NONE"):
+        for mode in ("STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE"):
             for used in (False, True):
 
                 def build(t, space=space, mode=mode, used=used):
