@@ -42,7 +42,7 @@ def use(t, group, *values):
 
 
 def as_number(t, socket):
-    return t.out("Math", {0: socket, 1: 0.5}, operation="ADD")
+    return t.around("Math", {0: socket, 1: 0.5}, operation="ADD")
 
 
 def group_cases() -> None:
@@ -50,7 +50,7 @@ def group_cases() -> None:
 
     def constant(t, kind):
         if kind in ("Bool", "Int", "Seconds", "Frame") or kind.startswith("Vector"):
-            from .node_cases_constants import new_constant
+            from .node_cases_versions import new_constant
 
             return new_constant(t, kind)
         if kind == "RGB":

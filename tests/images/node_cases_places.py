@@ -179,7 +179,7 @@ def normal_cases() -> None:
 
     def normal_of(t, socket):
         """What a normal does, where it can be seen: its components, from 0 to 1."""
-        return t.out(
+        return t.around(
             "VectorMath",
             {0: socket, 1: (0.5, 0.5, 0.5), 2: (0.5, 0.5, 0.5)},
             operation="MULTIPLY_ADD",

@@ -1,19 +1,50 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cases for nodes that Blender 5.1 and 5.2 added: joined bundles, constants, seen conversions."""
+"""Cases for nodes that not all Blenders have: old ones; joined bundles, constants, conversions."""
 
 from __future__ import annotations
 
-from .node_cases import CASES, case
+from .node_cases import CASES, case, enum_items
 from .node_cases_groups import as_number, new_group, use
 
 
 def add_cases() -> None:
     import bpy
 
+    plain_cases()
+    if bpy.app.version < (5, 0, 0):
+        old_cases()
     if bpy.app.version >= (5, 1, 0):
         joined_bundle_cases()
     if bpy.app.version >= (5, 2, 0):
         constant_cases()
+
+
+def plain_cases() -> None:
+    CASES["combine xyz"] = lambda t: t.out("CombineXYZ", dict(enumerate(t.signed())))
+    for index in range(3):
+        CASES[f"separate xyz {index}"] = lambda t, index=index: t.out(
+            "SeparateXYZ", {0: t.vector()}, index
+        )
+    for blend in enum_items("MixRGB", "blend_type"):
+        for clamp in (False, True):
+
+            def build(t, blend=blend, clamp=clamp):
+                inputs = {"Fac": t.signed()[0], "Color1": t.color(), "Color2": t.color(0.4)}
+                return t.out("MixRGB", inputs, blend_type=blend, use_clamp=clamp)
+
+            CASES[f"mix rgb {blend} {clamp}"] = build
+
+
+def old_cases() -> None:
+    """What became Combine Color and Separate Color."""
+    for model in ("RGB", "HSV"):
+        CASES[f"old combine {model}"] = lambda t, model=model: t.out(
+            f"Combine{model}", dict(enumerate(t.parts()))
+        )
+        for index in range(3):
+            CASES[f"old separate {model} {index}"] = lambda t, model=model, index=index: t.out(
+                f"Separate{model}", {0: t.color()}, index
+            )
 
 
 def new_constant(t, kind):
