@@ -34,7 +34,7 @@ def socket_value(socket):
     if socket.type == "SHADER" or (socket.type in TRIPLES and socket.hide_value):
         return None
     value = plain(getattr(socket, "default_value", None))
-    return _triple(value) if socket.type in TRIPLES and value is not None else value
+    return triple(value) if socket.type in TRIPLES and value is not None else value
 
 
 def convert(value, source: str, target: str):
@@ -52,11 +52,11 @@ def convert(value, source: str, target: str):
     if target == "RGBA":
         if source in NUMBERS:
             return [float(value)] * 3 + [1.0]
-        return [*_triple(value), 1.0] if source in TRIPLES else None
+        return [*triple(value), 1.0] if source in TRIPLES else None
     if target in TRIPLES:
         if source in NUMBERS:
             return [float(value)] * 3
-        return _triple(value) if source in ("RGBA", *TRIPLES) else None
+        return triple(value) if source in ("RGBA", *TRIPLES) else None
     return None
 
 
@@ -83,7 +83,7 @@ def conversion_node(source: str, target: str, link) -> tuple[str, dict, dict, st
     return None
 
 
-def _triple(value) -> list:
+def triple(value) -> list:
     """Vectors may have two numbers, or four."""
     return [*value[:3], *[0.0] * (3 - len(value))]
 
@@ -94,5 +94,5 @@ def _to_number(value, source: str) -> float | None:
     if source == "RGBA":
         return sum(w * c for w, c in zip(LUMINANCE, value, strict=False))
     if source in TRIPLES:
-        return sum(_triple(value)) / 3.0
+        return sum(triple(value)) / 3.0
     return None

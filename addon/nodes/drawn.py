@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Settings that a node keeps behind pointers: ramps, curves, a direction, an object."""
 
+import bpy
+
 TABLE_SIZE = 256  # as many as Cycles samples
 
 
@@ -61,8 +63,13 @@ def _other_object(node) -> dict:
 
 def _filter_width(node) -> dict:
     """What counts where the link of the socket gives no constant."""
-    socket = node.inputs.get("Filter Width")  # since Blender 4.2
+    socket = node.inputs.get("Filter Width")  # since Blender 4.5
     return {} if socket is None else {"filter_width": socket.default_value}
+
+
+def _space_of_normals(_node) -> dict:
+    """Of the attribute N."""
+    return {"world_normals": True} if bpy.app.version >= (5, 1, 0) else {}
 
 
 def _image_user(node) -> dict:
@@ -74,6 +81,7 @@ def _image_user(node) -> dict:
 
 
 READERS = {
+    **dict.fromkeys(("ATTRIBUTE", "VERTEX_COLOR"), _space_of_normals),
     "BUMP": _filter_width,
     "VALTORGB": _ramp,
     "CURVE_RGB": _curves,

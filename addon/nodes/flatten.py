@@ -31,8 +31,11 @@ FOLDED_NODES = {
     *("MAP_RANGE", "MATH", "MIX", "MIX_RGB", "SEPXYZ", "VALTORGB", "VECTOR_ROTATE", "VECT_MATH"),
 }
 
-
+UNFOLDED = {"RGB", "INPUT_SCENE_TIME"}  # constants that Blender leaves to Cycles
 DIFFERENT_FOLDED = {"CURVE_FLOAT", "CURVE_RGB", "CURVE_VEC", "MAP_RANGE"}
+# Of Cycles before there was such a socket: Filter Width came with Blender 4.5.
+OLD_INPUTS = {"BUMP": {"Filter Width": 1.0}}
+RENAMED = {"DIFFUSE_BSDF": "BSDF_DIFFUSE"}  # in Blender 4.4, and only there
 
 
 @dataclass(frozen=True)
@@ -47,13 +50,15 @@ class Source:
         return {"link": self.link} if self.link else self.value
 
 
-def flatten_tree(tree, target: str = "CYCLES") -> dict:
-    """The graph behind the Surface input of the tree's active output for `target` or All."""
+def flatten_tree(tree, scene, target: str = "CYCLES") -> dict:
+    """The graph behind the Surface input of the tree's active output for `target` or All, at the
+    time of the scene.
+    """
     output = tree.get_output_node(target) if tree else None
     surface = output.inputs.get("Surface") if output else None
     if surface is None:
         return {"nodes": [], "surface": None}
-    flattener = _Flattener()
+    flattener = _Flattener(scene)
     link = flattener.input(surface, Scope())
     flattener.run()
     return {"nodes": flattener.nodes, "surface": link}
@@ -67,9 +72,9 @@ def diffuse_graph(color) -> dict:
 
 
 class _Flattener:
-    def __init__(self):
+    def __init__(self, scene):
         self.nodes = []
-        self._links = LinkReader()
+        self._links = LinkReader(scene)
         self._names = {}  # (names of what is around it, its own) -> unique flat name
         self._taken = set()
         self._folds = {}  # the same keys -> whether Blender computes the node
@@ -83,10 +88,11 @@ class _Flattener:
         while self._pending and len(self.nodes) < MAX_NODES:
             node, scope, name = self._pending.popleft()
             inputs = {s.identifier: self.input(s, scope) for s in node.inputs if s.enabled}
+            inputs = OLD_INPUTS.get(node.type, {}) | inputs
             properties = _properties(node)
             if node.type in DIFFERENT_FOLDED and self._is_folded(node, scope):
                 properties |= self._folded(node, scope)
-            self._write(name, node.type, inputs, properties)
+            self._write(name, RENAMED.get(node.type, node.type), inputs, properties)
 
     def input(self, socket, scope: Scope):
         """What the graph says for one input: a link, a value, or None."""
@@ -107,8 +113,8 @@ class _Flattener:
         if end.node is None:
             return _through(Source(end.type, value=end.value), end.passed)
         if end.node.type in CONSTANT_NODES:
-            source = Source(end.type, value=plain(end.output.default_value))
-            straight = end.node.type == "RGB" and converts_constants_only()
+            source = Source(end.type, value=self._links.value(end.node, end.output))
+            straight = end.node.type in UNFOLDED and converts_constants_only()
             return source if straight else _through(source, end.passed)
         source = Source(end.type, [self._name(end.node, end.scope), end.output.identifier])
         if not end.passed or source.type == "SHADER":
@@ -121,8 +127,8 @@ class _Flattener:
 
     def _is_folded(self, node, scope: Scope, depth: int = 0) -> bool:
         """Does Blender compute the node before Cycles sees it?"""
-        if node.type == "VALUE":
-            return True
+        if node.type in CONSTANT_NODES:
+            return node.type not in UNFOLDED
         if not converts_constants_only() or node.type not in FOLDED_NODES or depth > MAX_DEPTH:
             return False
         key = (*scope.labels, node.name)

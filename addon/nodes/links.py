@@ -10,13 +10,18 @@ from dataclasses import dataclass, field, replace
 
 import bpy
 
-from .convert import convert, plain, socket_value
+from .convert import convert, plain, socket_value, triple
 
 MAX_STEPS = 10_000  # a cycle through broken links must end, and so must a zone
 # From Blender 5.0 on, the value of the next socket counts where nothing is behind a muted node.
 MUTED_ARE_LINKS = bpy.app.version >= (5, 0, 0)
 MAX_DEPTH = 50  # of bundles in bundles, menus by menus
-CONSTANT_NODES = {"RGB", "VALUE"}
+# Where a node without inputs keeps its value; None: in its output.
+CONSTANT_NODES = {
+    **dict.fromkeys(("RGB", "VALUE", "INPUT_SCENE_TIME")),
+    **{"INPUT_BOOL": "boolean", "INPUT_INT": "integer", "INPUT_VECTOR": "vector"},
+    "FunctionNodeInputMenu": "value",
+}
 ZONE_INPUTS = {"REPEAT_INPUT", "NodeClosureInput"}
 
 
@@ -58,16 +63,21 @@ class End:
 
 
 class LinkReader:
-    """Follows the links of a tree and of what it contains."""
+    """Follows the links of a tree and of what it contains. `scene`: whose time nodes ask for."""
 
-    def __init__(self):
+    def __init__(self, scene):
+        self._scene = scene
         self._zones = {}
+        self._joined = {}
 
-    def follow(self, socket, scope: Scope, depth: int = 0) -> End | None:
-        """What feeds the input; None: nothing is connected, so that its own value counts."""
+    def follow(self, socket, scope: Scope, depth: int = 0, link=None) -> End | None:
+        """What feeds the input; None: nothing is connected, so that its own value counts.
+
+        `link`: which of the input's links, if it has several.
+        """
         passed, unlinked = [], None
         for _ in range(MAX_STEPS):
-            link = _active_link(socket)
+            link = link or next(_active_links(socket), None)
             if link is None:
                 return unlinked
             node, output = link.from_node, link.from_socket
@@ -84,7 +94,17 @@ class LinkReader:
                 end = End(socket.type, value=value, passed=(*passed,))
                 unlinked = None if value is None else end
             passed.append(socket.type)
+            link = None
         return None
+
+    def value(self, node, output):
+        """Of a node of CONSTANT_NODES."""
+        if node.type == "INPUT_SCENE_TIME":
+            frame, rate = self._scene.frame_current_final, self._scene.render
+            return frame if output.identifier == "Frame" else frame * rate.fps_base / rate.fps
+        name = CONSTANT_NODES[node.type]
+        value = plain(getattr(node, name) if name else output.default_value)
+        return triple(value) if node.type == "INPUT_VECTOR" else value
 
     def constant(self, socket, scope: Scope, depth: int = 0):
         """The value of an input if it is one and the same everywhere, else None."""
@@ -95,7 +115,7 @@ class LinkReader:
         if end.node is not None:
             if end.node.type not in CONSTANT_NODES:
                 return None
-            value = plain(end.output.default_value)
+            value = self.value(end.node, end.output)
         for target in (*reversed(end.passed), socket.type):
             value, kind = convert(value, kind, target), target
         return value
@@ -157,9 +177,27 @@ class LinkReader:
 
     def _separate_bundle(self, node, output, scope, depth):
         end = self.follow(node.inputs["Bundle"], scope, depth + 1)
-        if end is None or end.node is None or end.node.type != "NodeCombineBundle":
+        return self._item(end, output.name, depth + 1)
+
+    def _item(self, end: End | None, name: str, depth: int):
+        """The input that puts an item into the bundle at `end`, and its scope; None: none does."""
+        if end is None or end.node is None or depth > MAX_DEPTH:
             return None
-        return _by_name(end.node.inputs, output.name), end.scope
+        if end.node.type == "NodeCombineBundle":
+            socket = _by_name(end.node.inputs, name)
+            return socket and (socket, end.scope)
+        if end.node.type != "NodeJoinBundle":
+            return None
+        key = (*end.scope.labels, end.node.name, name)
+        if key not in self._joined:  # each once: there are more ways to one than nodes
+            self._joined[key] = None
+            socket = end.node.inputs["Bundle"]
+            for link in _active_links(socket):  # of equal names the first counts
+                part = self.follow(socket, end.scope, depth + 1, link)
+                self._joined[key] = self._item(part, name, depth + 1)
+                if self._joined[key]:
+                    break
+        return self._joined[key]
 
     def _evaluate_closure(self, node, output, scope, depth):
         end = self.follow(node.inputs["Closure"], scope, depth + 1)
@@ -201,6 +239,7 @@ class LinkReader:
 
 STEPS = {
     "REROUTE": LinkReader._reroute,
+    "NodeImplicitConversion": LinkReader._reroute,
     "GROUP_INPUT": LinkReader._group_input,
     "GROUP": LinkReader._group,
     "MENU_SWITCH": LinkReader._menu_switch,
@@ -218,13 +257,12 @@ def zone_input(output_node):
     return next((n for n in starts if n.paired_output == output_node), None)
 
 
-def _active_link(socket):
-    if not socket.is_linked:
-        return None
-    for link in socket.links:
-        if link.is_valid and not link.is_muted:
-            return link
-    return None
+def _active_links(socket):
+    """What feeds an input, the link that is drawn at the top first."""
+    links = socket.links if socket.is_linked else ()
+    if len(links) > 1:
+        links = sorted(links, key=lambda link: -link.multi_input_sort_id)
+    return (link for link in links if link.is_valid and not link.is_muted)
 
 
 def _group_output(tree):

@@ -66,14 +66,14 @@ def to_scene_linear(colors: np.ndarray, space: str) -> np.ndarray | None:
         bpy.data.images.remove(image)
 
 
-def decode_half(buffer: np.ndarray, space: str, covered: bool) -> np.ndarray:
+def decode_half(buffer: np.ndarray, space: str, covered: bool, multiplied: bool) -> np.ndarray:
     """A picture of bytes in scene-linear colours, rounded to half floats as in Cycles. `covered`:
-    colours are to be multiplied by alpha.
+    colours are to be multiplied by alpha; `multiplied`: they are.
     """
     colors, scale = buffer[..., :3], CYCLES_SCALE.get(space, 1.0)
     if covered:
         alpha = _half(buffer[..., 3:])
-        colors = _half(colors * buffer[..., 3:])
+        colors = _half(colors if multiplied else colors * buffer[..., 3:])
         share = np.where(alpha > 0.0, alpha, 1.0)
         found = scale * to_scene_linear(colors / share, space) * share
         return np.concatenate([_half(found), alpha], axis=2)

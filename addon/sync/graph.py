@@ -7,7 +7,7 @@ from .properties import view_layer_value
 
 def read_graph(tree, depsgraph) -> dict:
     """The flat graph of a tree, with what its nodes read of the view layer."""
-    graph = flatten_tree(tree)
+    graph = flatten_tree(tree, depsgraph.scene_eval)
     for node in graph["nodes"]:
         properties = node["properties"]
         if node["type"] == "ATTRIBUTE" and properties["attribute_type"] == "VIEW_LAYER":

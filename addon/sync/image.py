@@ -93,6 +93,10 @@ def user_frame(frame: int, duration: int, start: int, offset: int, cyclic: bool)
     return at + offset
 
 
+# Cycles takes bytes for multiplied where the picture says so.
+KNOWS_MULTIPLIED_BYTES = bpy.app.version >= (5, 1, 0)
+
+
 def covers(image) -> bool:
     """Does alpha cover the colours? Not those of packed channels or of data."""
     packed = image.alpha_mode == "CHANNEL_PACKED"
@@ -127,9 +131,10 @@ def pixels(image, warn) -> tuple[np.ndarray, bool] | None:
         return buffer, False
     if kind == "UNKNOWN":
         warn(f"its colour space '{space}' cannot be converted, its numbers are used as they are")
+    multiplied = KNOWS_MULTIPLIED_BYTES and image.alpha_mode == "PREMUL"
     if kind == "OTHER":
-        return decode_half(buffer, space, alpha and covers(image)), False
-    if alpha and covers(image):
+        return decode_half(buffer, space, alpha and covers(image), multiplied), False
+    if alpha and covers(image) and not multiplied:
         # Cycles multiplies bytes before it decodes them, and rounds down.
         integers = np.rint(255.0 * buffer).astype(np.int32)
         buffer[..., :3] = (integers[..., :3] * integers[..., 3:] // 255).astype(np.float32) / 255.0

@@ -208,7 +208,7 @@ def test_registers_twice_under_another_name_without_a_core():
     folder = Path(__file__).resolve().parents[2] / "addon"
     code = SCRIPT.format(init=str(folder / "__init__.py"), folder=str(folder))
     command = [sys.executable, "-c", code]
-    if not bpy.app.module:
+    if bpy.app.binary_path:  # no module
         command = [bpy.app.binary_path, "-b", "--factory-startup", "--python-expr", code]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert "all well" in done.stdout, done.stderr

@@ -27,7 +27,7 @@ def to_output(tree, socket):
 
 
 def flatten(tree):
-    graph = part("nodes").flatten_tree(tree)
+    graph = part("nodes").flatten_tree(tree, bpy.context.scene)
     return graph, {node["name"]: node for node in graph["nodes"]}
 
 
@@ -225,7 +225,7 @@ def test_output_for_cycles_wins_over_eevee(tree):
 def test_no_output_and_no_tree(tree):
     tree.nodes.clear()
     assert flatten(tree)[0] == {"nodes": [], "surface": None}
-    assert part("nodes").flatten_tree(None) == {"nodes": [], "surface": None}
+    assert part("nodes").flatten_tree(None, bpy.context.scene) == {"nodes": [], "surface": None}
 
 
 def test_long_chain_does_not_overflow_the_stack(tree):
@@ -281,6 +281,34 @@ def test_graph_is_plain_data(tree):
     graph, _ = flatten(tree)
     assert len(graph["nodes"]) > 60
     assert json.loads(json.dumps(graph)) == graph
+
+
+def test_diffuse_has_one_name(tree):
+    """In Blender 4.4 its type is another."""
+    to_output(tree, add(tree, "BsdfDiffuse").outputs[0])
+    _, nodes = flatten(tree)
+    assert nodes["Diffuse BSDF"]["type"] == "BSDF_DIFFUSE"
+
+
+@pytest.mark.skipif(bpy.app.version < (5, 1, 0), reason="Join Bundle came with Blender 5.1")
+def test_bundles_joined_again_and_again_end(tree):
+    """Each of the joined bundles is the one before, twice: 2^40 ways to what is not there."""
+    joined = tree.nodes.new("NodeCombineBundle").outputs[0]
+    for _ in range(40):
+        node = tree.nodes.new("NodeJoinBundle")
+        for _ in range(2):
+            between = tree.nodes.new("NodeReroute")
+            tree.links.new(joined, between.inputs[0])
+            tree.links.new(between.outputs[0], node.inputs[0])
+        joined = node.outputs[0]
+    separate = tree.nodes.new("NodeSeparateBundle")
+    separate.bundle_items.new("FLOAT", "X")
+    tree.links.new(joined, separate.inputs[0])
+    emission = add(tree, "Emission", "Lamp", Strength=3.0)
+    tree.links.new(separate.outputs[0], emission.inputs["Strength"])
+    to_output(tree, emission.outputs[0])
+    _, nodes = flatten(tree)
+    assert nodes["Lamp"]["inputs"]["Strength"] == 3.0
 
 
 @pytest.mark.skipif(bpy.app.version < (5, 0, 0), reason="Repeat zones came with Blender 5.0")

@@ -6,6 +6,8 @@ A case is a function of a `Tree` that returns the socket to look at. `CASES` map
 
 from __future__ import annotations
 
+AROUND = "around"
+
 
 class Tree:
     """A material's node tree, with the inputs that cases start from."""
@@ -36,6 +38,12 @@ class Tree:
         if isinstance(output, int):
             return made.outputs[output]
         return next(s for s in made.outputs if s.identifier == output)
+
+    def around(self, kind: str, inputs, **properties):
+        """The same for a node that only shows what its first input gives: see `subject`."""
+        made = self.node(kind, inputs, **properties)
+        made.label = AROUND
+        return made.outputs[0]
 
     def value(self, x: float):
         """The output of a Value node."""
@@ -80,6 +88,13 @@ class Tree:
         return self.out("CombineColor", {0: turned, 1: v, 2: w}, mode="HSV")
 
 
+def subject(socket) -> str:
+    """The type of the node that a case is about: the last one that is not around another."""
+    while socket.node.label == AROUND:
+        socket = socket.node.inputs[0].links[0].from_socket
+    return socket.node.type
+
+
 def fill(node, **values) -> None:
     """Sets those inputs, by identifier, that the node's settings leave in use."""
     for socket in node.inputs:
@@ -98,6 +113,15 @@ def enum_items(kind: str, name: str):
 
 CASES = {}
 
+# What Cycles does in older Blenders only, or Janus cannot do there: (until, beginning of the name).
+OLDER = (
+    ((4, 5), "instancer nodes"),  # Python cannot ask; named
+    ((4, 5), "bump by coordinate Normal"),  # the normal has no slope
+    ((4, 5), "pieces bump by coordinate Normal"),
+    ((5, 0), "attribute GEOMETRY tangent_sign"),  # 0, unless tangents are asked for as well
+    ((5, 0), "image alpha in Rec.1886 CHANNEL_PACKED"),  # divided by an alpha that does not cover
+)
+
 
 def case(name):
     def keep(function):
@@ -111,13 +135,19 @@ def add_cases() -> None:
     """Fills CASES; needs bpy for the enums."""
     if CASES:
         return
-    from . import node_cases_groups, node_cases_images, node_cases_places
+    import bpy
+
+    from . import node_cases_groups, node_cases_images, node_cases_places, node_cases_versions
 
     math_cases()
     color_cases()
     node_cases_places.add_cases()
     node_cases_images.add_cases()
     node_cases_groups.add_cases()
+    node_cases_versions.add_cases()
+    older = tuple(name for until, name in OLDER if bpy.app.version < until)
+    for name in [n for n in CASES if n.startswith(older)]:
+        del CASES[name]
 
 
 def math_cases() -> None:

@@ -42,11 +42,17 @@ def use(t, group, *values):
 
 
 def as_number(t, socket):
-    return t.out("Math", {0: socket, 1: 0.5}, operation="ADD")
+    return t.around("Math", {0: socket, 1: 0.5}, operation="ADD")
 
 
 def group_cases() -> None:
+    import bpy
+
     def constant(t, kind):
+        if kind in ("Bool", "Int", "Seconds", "Frame") or kind.startswith("Vector"):
+            from .node_cases_versions import new_constant
+
+            return new_constant(t, kind)
         if kind == "RGB":
             return t.rgb((0.3, 0.9, 2.6, 1.0))
         if kind == "Value":
@@ -62,7 +68,10 @@ def group_cases() -> None:
         "vector": lambda t: t.vector(),
         "color": lambda t: t.color(),
     }
-    for kind in ("RGB", "Value", "Math", "Combine", "Hue"):
+    kinds = ["RGB", "Value", "Math", "Combine", "Hue"]
+    if bpy.app.version >= (5, 2, 0):
+        kinds += ["Bool", "Int", "Vector", "Vector4", "Seconds", "Frame"]
+    for kind in kinds:
         sources[kind] = lambda t, kind=kind: constant(t, kind)
     for name, source in sources.items():
         for kind in SOCKETS:
@@ -149,7 +158,7 @@ def group_cases() -> None:
             return node.outputs[0]
 
         CASES[f"float curve of {value}"] = build
-    for size in (2, 4):
+    for size in (2, 4) if bpy.app.version >= (5, 0, 0) else ():
 
         def build(t, size=size):
             group, start, stop = new_group([("In", "Vector")], [("Out", "Vector")])

@@ -93,8 +93,8 @@ def space_cases() -> None:
 
     def dim(t, socket):
         """Logarithmic spaces hold more than a tile shows."""
-        above = t.out("VectorMath", {0: socket, 1: [-20.0] * 3}, operation="MAXIMUM")
-        return t.out("VectorMath", {0: above, 1: [20.0] * 3}, operation="MINIMUM")
+        above = t.around("VectorMath", {0: socket, 1: [-20.0] * 3}, operation="MAXIMUM")
+        return t.around("VectorMath", {0: above, 1: [20.0] * 3}, operation="MINIMUM")
 
     for space in spaces:
         CASES[f"image bytes in {space}"] = lambda t, space=space: dim(
@@ -109,7 +109,7 @@ def space_cases() -> None:
     for space in ("ACEScg", "Rec.1886", "Linear Rec.2020", "sRGB", "Non-Color"):
         if space not in spaces:
             continue
-        for mode in ("STRAIGHT", "CHANNEL_PACKED", "NONE"):
+        for mode in ("STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE"):
             for used in (False, True):
 
                 def build(t, space=space, mode=mode, used=used):
@@ -118,7 +118,7 @@ def space_cases() -> None:
                     node = look(t, image)
                     if not used:
                         return node.outputs[0]
-                    return t.out("VectorMath", {0: node.outputs[0], 1: node.outputs[1]})
+                    return t.around("VectorMath", {0: node.outputs[0], 1: node.outputs[1]})
 
                 CASES[f"image alpha in {space} {mode} {used}"] = build
     for space in ("sRGB", "Non-Color"):

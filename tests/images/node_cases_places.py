@@ -175,9 +175,11 @@ def attribute_cases() -> None:
 
 
 def normal_cases() -> None:
+    import bpy
+
     def normal_of(t, socket):
         """What a normal does, where it can be seen: its components, from 0 to 1."""
-        return t.out(
+        return t.around(
             "VectorMath",
             {0: socket, 1: (0.5, 0.5, 0.5), 2: (0.5, 0.5, 0.5)},
             operation="MULTIPLY_ADD",
@@ -193,12 +195,26 @@ def normal_cases() -> None:
             CASES[f"normal map {space} {strength}"] = build
             CASES[f"pieces normal map {space} {strength}"] = build
 
+    if bpy.app.version >= (5, 1, 0):
+        for space in enum_items("NormalMap", "space"):
+            for base in enum_items("NormalMap", "base"):
+
+                def build(t, space=space, base=base):
+                    node = t.node("NormalMap", {"Color": t.color()}, space=space, base=base)
+                    node.convention = "DIRECTX"
+                    return normal_of(t, node.outputs[0])
+
+                CASES[f"normal map {space} {base} of DirectX"] = build
+
     def bumps(t, width, distance=0.1):
         u, v, _ = t.parts()
         height = t.out("Math", {0: u, 1: 9.0}, operation="MULTIPLY")
         height = t.out("Math", {0: height}, operation="SINE")
         height = t.out("Math", {0: height, 1: v}, operation="MULTIPLY")
-        return t.node("Bump", {"Height": height, "Filter Width": width, "Distance": distance})
+        inputs = {"Height": height, "Distance": distance}
+        if bpy.app.version >= (4, 5, 0):  # before, there is no choice
+            inputs["Filter Width"] = width
+        return t.node("Bump", inputs)
 
     for width in (0.01, 0.3, 1.0, 5.0):
         CASES[f"bump width {width}"] = lambda t, width=width: normal_of(

@@ -2,10 +2,10 @@
 """A sheet of tiles, each with the Emission of one small node tree: pictures by Cycles and by Janus.
 
 `python node_scenes.py FOLDER [NAME...]` writes FOLDER/sheet_N_cycles.exr, FOLDER/sheet_N_janus.exr
-and FOLDER/sheets.json: for each sheet the names of its cases and what Janus said. One process makes
-them all. The filter is so narrow that every sample lies in the middle of its pixel. `--random FIRST
-COUNT` takes the graphs of random_graphs.py, and writes FOLDER/sheet_N_again.exr as well: Cycles'
-with other samples.
+and FOLDER/sheets.json: for each sheet the names of its cases, the types of the nodes that they are
+about, and what Janus said. One process makes them all. The filter is so narrow that every sample
+lies in the middle of its pixel. `--random FIRST COUNT` takes the graphs of random_graphs.py, and
+writes FOLDER/sheet_N_again.exr as well: Cycles' with other samples.
 """
 
 from __future__ import annotations
@@ -22,17 +22,18 @@ SCALE, LIFT = 0.1, 10.0
 
 
 def build_sheet(names, cases):
-    """A scene with a tile for each name, seen from above."""
+    """A scene with a tile for each name, seen from above; the types of the nodes looked at."""
     import bpy
 
     from tests.images import node_meshes
-    from tests.images.node_cases import Tree
+    from tests.images.node_cases import Tree, subject
 
     scene = bpy.context.scene
     rows = math.ceil(len(names) / COLUMNS)
     mesh = node_meshes.tile_mesh()
     pieces = node_meshes.pieces_mesh(mesh)
     other = bpy.data.objects.get("Other")
+    types = []
     for number, name in enumerate(names):
         material = bpy.data.materials.new(name)
         if bpy.app.version < (5, 0, 0):
@@ -43,10 +44,12 @@ def build_sheet(names, cases):
         emission = tree.nodes.new("ShaderNodeEmission")
         output = tree.nodes.new("ShaderNodeOutputMaterial")
         tree.links.new(emission.outputs[0], output.inputs["Surface"])
+        seen = cases[name](Tree(tree))
+        types.append(subject(seen))
         # Light below zero is no light: a tenth of the value, lifted.
         lifted = Tree(tree).out(
             "VectorMath",
-            {0: cases[name](Tree(tree)), 1: [SCALE] * 3, 2: [LIFT] * 3},
+            {0: seen, 1: [SCALE] * 3, 2: [LIFT] * 3},
             operation="MULTIPLY_ADD",
         )
         tree.links.new(lifted, emission.inputs["Color"])
@@ -71,7 +74,7 @@ def build_sheet(names, cases):
     camera.data.ortho_scale = 2.2 * max(COLUMNS, rows)
     camera.location = (1.1 * (COLUMNS - 1), 1.1 * (rows - 1), 8.0)
     scene.render.resolution_x, scene.render.resolution_y = TILE * COLUMNS, TILE * rows
-    return scene
+    return types
 
 
 def main(folder: Path, chosen: list[str]) -> None:
@@ -101,7 +104,7 @@ def main(folder: Path, chosen: list[str]) -> None:
         scene.collection.objects.link(bpy.data.objects.new("Other", None))
         scene.frame_set(FRAME)
         part = names[start : start + COLUMNS * COLUMNS]
-        build_sheet(part, cases)
+        types = build_sheet(part, cases)
         scene.render.image_settings.file_format = "OPEN_EXR"
         scene.render.image_settings.color_depth = "32"
         scene.render.threads_mode, scene.render.threads = "FIXED", 2
@@ -116,7 +119,7 @@ def main(folder: Path, chosen: list[str]) -> None:
         for entry, _ in addon.part("report").kept(scene.name_full):
             said.append([entry.severity, entry.material, entry.node, entry.message])
         scene.render.engine = "CYCLES"
-        sheets.append({"names": part, "said": said})
+        sheets.append({"names": part, "types": types, "said": said})
     (folder / "sheets.json").write_text(json.dumps(sheets))
     addon.unload()
     sys.stdout.flush()

@@ -2,8 +2,10 @@
 """Every setting of every node of values through Cycles: the same picture, pixel by pixel."""
 
 import json
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +20,9 @@ TOLERANCE = 3e-3
 LOOSE = {"image bytes in Khronos PBR Neutral sRGB": 1.5}
 # Pixels of a tile that an edge of a step may cross: there half of the samples lie on either side.
 ON_EDGES = 0.12
+
+DIFFERENCES = Path(__file__).with_name("node_differences.json")
+STEPS = (1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 3e-3, 5e-3)  # what is stored is one of these
 
 
 @pytest.fixture(scope="module")
@@ -44,21 +49,46 @@ def tiles(sheet):
         yield name, sheet["cycles"][inside], sheet["janus"][inside]
 
 
-def test_every_node_is_cycles(sheets):
-    wrong, largest = [], {}
+@pytest.fixture(scope="module")
+def measured(sheets):
+    """By case: the type of the node that it is about, and the largest difference."""
+    result = {}
     for sheet in sheets:
-        for name, cycles, janus in tiles(sheet):
+        for (name, cycles, janus), kind in zip(tiles(sheet), sheet["types"], strict=False):
             span = max(float(cycles.max() - cycles.min()), float(np.abs(cycles).max()), 1e-6)
             off = np.abs(cycles - janus).max(axis=-1) / span
             allowed = int(ON_EDGES * off.size)
-            kept = float(np.sort(off, axis=None)[-1 - allowed])
-            largest[name] = kept
-            if not kept <= TOLERANCE * LOOSE.get(name, 1.0):
-                wrong.append(f"{name}: {kept:.4f} of the range")
-    worst = sorted(largest, key=largest.get, reverse=True)[:5]
-    print(f"{len(largest)} cases; largest: {[(name, round(largest[name], 5)) for name in worst]}")
-    assert len(largest) > 900
+            result[name] = kind, float(np.sort(off, axis=None)[-1 - allowed])
+    return result
+
+
+def test_every_node_is_cycles(measured):
+    worst = sorted(measured, key=lambda name: measured[name][1], reverse=True)[:5]
+    print(f"{len(measured)} cases; largest: {[(n, round(measured[n][1], 5)) for n in worst]}")
+    wrong = [
+        f"{name}: {off:.4f} of the range"
+        for name, (_, off) in measured.items()
+        if not off <= TOLERANCE * LOOSE.get(name, 1.0)
+    ]
+    assert len(measured) > 900
     assert wrong == []
+
+
+def test_differences_are_as_documented(measured):
+    """core/NODES.md holds them. With JANUS_MEASURE=1 the stored ones are raised to what is found in
+    this Blender, with some room for other processors; to lower one, take it out of the file.
+    """
+    largest = {}
+    for kind, off in measured.values():
+        largest[kind] = max(off, largest.get(kind, 0.0))
+    stored = json.loads(DIFFERENCES.read_text())
+    if os.environ.get("JANUS_MEASURE") == "1":
+        for kind, off in largest.items():
+            step = next(step for step in STEPS if 1.3 * off <= step)
+            stored[kind] = max(step, stored.get(kind, 0.0))
+        rows = [f"{json.dumps(kind)}: {step:g}" for kind, step in sorted(stored.items())]
+        DIFFERENCES.write_text("{\n" + ",\n".join(rows) + "\n}\n")
+    assert [kind for kind, off in largest.items() if not off <= stored.get(kind, 0.0)] == []
 
 
 def test_nothing_is_said_but_of_missing_pictures(sheets):

@@ -171,7 +171,8 @@ constexpr SocketDecl kInputs[] = {{"Base Color", Color, 0.8f},
                                   {"Anisotropic", Float, 0.0f},
                                   {"Coat Weight", Float, 0.0f},
                                   {"Sheen Weight", Float, 0.0f},
-                                  {"Thin Film Thickness", Float, 0.0f}};
+                                  {"Thin Film Thickness", Float, 0.0f},
+                                  {"Thin Wall", Float, 0.0f}};
 
 // The index of the specular layer: the level moves it away from the IOR's.
 float layer_index(float ior, float level, float f0) {
@@ -237,6 +238,7 @@ constexpr LeftOut kLeftOut[] = {
     {"Anisotropic", 0.0f, "anisotropy is not supported yet; 0 is used"},
     {"Specular Tint", 1.0f, "specular tint is not supported yet; white is used"},
     kThinFilm,
+    {"Thin Wall", 0.0f, "thin walls are not supported yet; a closed surface is rendered"},
 };
 
 void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }

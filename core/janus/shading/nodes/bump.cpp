@@ -68,11 +68,22 @@ vec3 blender_world_map(const Context& c, float strength, vec3 color) {
 
 constexpr std::string_view kSpaces[] = {"TANGENT", "OBJECT", "WORLD", "BLENDER_OBJECT",
                                         "BLENDER_WORLD"};
-constexpr EnumDecl kSpace[] = {{"space", kSpaces}};
+// DirectX has green point down. What is displaced is not there yet: the bases are the same.
+constexpr std::string_view kConventions[] = {"OPENGL", "DIRECTX"},
+                           kBases[] = {"ORIGINAL", "DISPLACED"};
+constexpr EnumDecl kMapSettings[] = {
+    {"space", kSpaces}, {"convention", kConventions}, {"base", kBases}};
+
+constexpr Operation kFlipGreen =
+    pure<[](vec3 color) { return vec3(color.x, 1.0f - color.y, color.z); }>;
 
 void emit_normal_map(NodeEmitter& e) {
   const std::string space = e.property("space", "TANGENT");
-  const Value strength = e.input("Strength"), color = e.input("Color");
+  const Value strength = e.input("Strength");
+  Value color = e.input("Color");
+  if (e.property("convention", "OPENGL") == "DIRECTX") {
+    color = e.emit(kFlipGreen, {color});
+  }
   const bool tangent = space == "TANGENT";
   const Operation& operation = tangent                     ? by_side<&tangent_map>
                                : space == "OBJECT"         ? by_side<&object_map>
@@ -139,7 +150,7 @@ void emit_bump(NodeEmitter& e) {
 
 std::span<const NodeDecl> normal_nodes() {
   static const NodeDecl kNodes[] = {
-      {"NORMAL_MAP", kMapInputs, kNormal, &emit_normal_map, nullptr, MixOp::None, kSpace},
+      {"NORMAL_MAP", kMapInputs, kNormal, &emit_normal_map, nullptr, MixOp::None, kMapSettings},
       {"BUMP", kBumpInputs, kNormal, &emit_bump},
   };
   return kNodes;

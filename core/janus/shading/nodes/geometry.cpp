@@ -64,6 +64,15 @@ void emit_found(NodeEmitter& e, const std::vector<float>& value) {
 constexpr std::string_view kKinds[] = {"GEOMETRY", "OBJECT", "INSTANCER", "VIEW_LAYER"};
 constexpr EnumDecl kKind[] = {{"attribute_type", kKinds}};
 
+// Normals of vertices, in world space where the graph says so: as Cycles has them from Blender 5.1
+// on.
+Value in_world(NodeEmitter& e, Value value, const std::string& key) {
+  constexpr static Operation kToWorld = at_point<[](const Context& c, vec3 v) {
+    return length(v) * safe_normalize(c.point.object->normal_to_world * v);
+  }>;
+  return key == "normal" && e.flag("world_normals") ? e.emit(kToWorld, {value}) : value;
+}
+
 void emit_attribute(NodeEmitter& e) {
   const std::string kind = e.property("attribute_type", "GEOMETRY");
   const std::string name = e.property("attribute_name");
@@ -76,10 +85,10 @@ void emit_attribute(NodeEmitter& e) {
                           : kind == "INSTANCER" ? "instancer:" + name
                                                 : geometry_key(name);
   const uint32_t slot = e.attribute(key);
-  const Value value = e.emit(kAttribute, {}, slot);
+  const Value value = in_world(e, e.emit(kAttribute, {}, slot), key);
   e.output("Color", e.convert(value, Color));
   e.output("Vector", value);
-  e.output("Fac", e.emit(kAttributeFactor, {}, slot));
+  e.output("Fac", key == "normal" ? e.convert(value, Float) : e.emit(kAttributeFactor, {}, slot));
   // The handedness of a tangent is no alpha.
   const bool tangent = key.starts_with("tangent:");
   e.output("Alpha", tangent ? e.constant(1.0f) : e.emit(kAttributeAlpha, {}, slot));
@@ -87,8 +96,9 @@ void emit_attribute(NodeEmitter& e) {
 
 void emit_color_attribute(NodeEmitter& e) {
   const std::string name = e.property("layer_name");
-  const uint32_t slot = e.attribute(name.empty() ? "color:" : geometry_key(name));
-  e.output("Color", e.convert(e.emit(kAttribute, {}, slot), Color));
+  const std::string key = name.empty() ? "color:" : geometry_key(name);
+  const uint32_t slot = e.attribute(key);
+  e.output("Color", e.convert(in_world(e, e.emit(kAttribute, {}, slot), key), Color));
   e.output("Alpha", e.emit(kAttributeAlpha, {}, slot));
 }
 
