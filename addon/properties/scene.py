@@ -114,7 +114,8 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
     adaptive_counts: BoolProperty(
         name="Automatic",
         description="Starts with the numbers below, measures their use in the scene, and goes on "
-        "with those that clear the picture soonest, which may be hardly any. Needs the balance heuristic",
+        "with those that clear the picture soonest, which may be hardly any. Needs the balance "
+        "heuristic",
         default=True,
     )
     light_paths: FloatProperty(
