@@ -20,7 +20,7 @@ void Image::pack() {
     return value[byte] == x ? std::optional(byte) : std::nullopt;
   };
   const int across = blocks_across();
-  std::vector<Block> made(static_cast<size_t>(across) * ((height + 3) / 4));
+  decltype(blocks) made(static_cast<size_t>(across) * ((height + 3) / 4));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const size_t at = (static_cast<size_t>(y) * width + x) * channels;

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "janus/util/huge_pages.h"
+
 namespace janus {
 
 // Float pixels, `channels` interleaved; row 0 is the bottom row, as in Blender.

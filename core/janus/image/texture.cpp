@@ -116,6 +116,18 @@ vec4 Texture::lookup(vec2 uv) const {
   return c;
 }
 
+void Texture::prefetch(vec2 uv) const {
+  const vec2 at = uv * vec2(image->width, image->height) - 0.5f;
+  if (image->blocks.empty() || !(glm::abs(at.x) < 1e9f && glm::abs(at.y) < 1e9f)) {
+    return;
+  }
+  const int x = place(static_cast<int>(std::floor(at.x)), image->width, extension);
+  const int y = place(static_cast<int>(std::floor(at.y)), image->height, extension);
+  if (x >= 0 && y >= 0) {
+    __builtin_prefetch(&image->bytes(x, y));
+  }
+}
+
 vec4 Texture::decode(vec4 c) const {
   for (int i = 0; srgb && i < 3; ++i) {
     c[i] = kSrgb.linear(c[i]);

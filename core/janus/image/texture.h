@@ -21,6 +21,8 @@ struct Texture {
 
   // RGBA as the image holds it (alpha 1 if it has none); (0, 0) is its lower left corner.
   vec4 lookup(vec2 uv) const;
+  // Asks for the memory that the lookup will wait for.
+  void prefetch(vec2 uv) const;
   // What was looked up, as scene-linear colour.
   vec4 decode(vec4 rgba) const;
 

@@ -158,6 +158,7 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
   }
   size_t top = program_.constants.size();
   std::vector<uint32_t> free[2];  // numbers, vectors
+  std::set<uint32_t> asked;       // operands whose prefetches are there
   for (size_t s = 0; s < steps_.size(); ++s) {
     const Step& step = steps_[s];
     if (!used[step.result.index]) {
@@ -178,6 +179,19 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
       if (!definition.is_constant && last[operand.index] == s &&
           ended.insert(operand.index).second) {
         free[is_vector(definition.type)].push_back(place[operand.index]);
+      }
+    }
+    if (step.operation.prefetch && asked.insert(step.operands[0].index).second) {
+      // Those that look at the same place then wait for memory together.
+      for (size_t other = s + 1; other < steps_.size(); ++other) {
+        const Step& o = steps_[other];
+        if (o.operation.prefetch && used[o.result.index] &&
+            o.operands[0].index == step.operands[0].index) {
+          program_.operands.push_back(static_cast<uint16_t>(place[o.operands[0].index]));
+          program_.instructions.push_back({o.operation.prefetch,
+                                           static_cast<uint32_t>(program_.operands.size() - 1),
+                                           o.data, 0, o.at});
+        }
       }
     }
     const auto first = static_cast<uint32_t>(program_.operands.size());

@@ -32,6 +32,8 @@ struct Operation {
   std::array<SocketType, kMaxOperands> operands;
   bool reads_point;  // its result is no function of the operands and `data` alone
   Dependence dependence;
+  // Asks for the memory that the kernel will wait for; it writes nothing. Null: there is none.
+  Kernel prefetch = nullptr;
 };
 
 namespace detail {

@@ -135,6 +135,17 @@ template <auto Look>
 float alpha_of(const Context& c, vec3 p) {
   return Look(c, p).w;
 }
+void prefetch_flat(RunState& state, const Instruction& i) {
+  if (!(i.data & kTiled)) {
+    const float* uv = state.registers + state.program.operands[i.operands];
+    state.program.textures[i.data & ~kUnassociate]->prefetch(vec2(uv[0], uv[1]));
+  }
+}
+constexpr Operation prefetched(Operation operation) {
+  operation.prefetch = &prefetch_flat;
+  return operation;
+}
+
 vec3 box_color(const Context& c, vec3 p, float blend) { return vec3(look_box(c, p, blend)); }
 float box_alpha(const Context& c, vec3 p, float blend) { return look_box(c, p, blend).w; }
 
@@ -206,11 +217,11 @@ void emit_image(NodeEmitter& e) {
     const bool sphere = projection == "SPHERE", tube = projection == "TUBE";
     color = e.emit(sphere ? pure<&color_of<&look_sphere>>
                    : tube ? pure<&color_of<&look_tube>>
-                          : pure<&color_of<&look_flat>>,
+                          : prefetched(pure<&color_of<&look_flat>>),
                    {p}, *texture);
     alpha = e.emit(sphere ? pure<&alpha_of<&look_sphere>>
                    : tube ? pure<&alpha_of<&look_tube>>
-                          : pure<&alpha_of<&look_flat>>,
+                          : prefetched(pure<&alpha_of<&look_flat>>),
                    {p}, *texture);
   }
   e.output("Color", e.convert(color, Color));
