@@ -4,7 +4,8 @@
 
 * includes (C++) and imports (add-on) point one way only, in the order of the lists below;
 * Embree is included by one .cpp, OpenEXR by what belongs to janus_exr, janus_core by bridge.py;
-* every source file starts with its licence and stays short.
+* every source file starts with its licence and stays short;
+* what the mistakes of `./dev mutate` change is in the source.
 """
 
 import ast
@@ -139,6 +140,15 @@ def files(folders: str, *patterns: str) -> list[Path]:
     )
 
 
+def check_mistakes() -> None:
+    sys.path.insert(0, str(ROOT / "tests" / "mutation"))
+    from mutate import MISTAKES, stale
+
+    for mistake in MISTAKES:
+        if why := stale(mistake):
+            problems.append(f"tests/mutation: {mistake.name} is stale: {why}")
+
+
 def main() -> int:
     cpp = files("core tests", "*.h", "*.cpp")
     addon = files("addon", "*.py")
@@ -151,6 +161,7 @@ def main() -> int:
         check_addon(path, levels(ADDON_LAYERS))
     for path in cpp + python + build + top:
         check_file(path)
+    check_mistakes()
     print("\n".join(problems) or f"tree: {len(cpp)} C++ and {len(python)} Python files in order")
     return 1 if problems else 0
 

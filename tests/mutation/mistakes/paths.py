@@ -13,6 +13,7 @@ from mistakes.sources import (
     CROSSINGS,
     FLIGHT_APART,
     PICTURES,
+    PILOT,
     RAY_TYPES,
     SUBPATH,
 )
@@ -50,9 +51,9 @@ PATHS = (
         12,
         "surfaces with a delta lobe among others are not connected to",
         PICTURES,
-        BDPT,
-        "if (v.bsdf().connectible() && v.edges + least <=",
-        "if (v.bsdf().connectible() && v.bsdf().lobes().size() == 1 && v.edges + least <=",
+        PILOT,
+        "return v.bsdf().connectible() && v.edges",
+        "return v.bsdf().connectible() && v.bsdf().lobes().size() == 1 && v.edges",
     ),
     one(
         "shadow-ray-epsilon",
@@ -151,8 +152,8 @@ PATHS = (
         "light walks do not stop at surfaces that their own rays do not meet",
         RAY_TYPES,
         FLIGHT_APART,
-        "(may_end ? v.shading.bsdf.albedo() : 0.0f)",
-        "(may_end && blocks ? v.shading.bsdf.albedo() : 0.0f)",
+        "may_end(copy) ? v.shading.bsdf.albedo()",
+        "may_end(copy) && place.blocks ? v.shading.bsdf.albedo()",
     ),
     one(
         "hits-behind-what-shadow-rays-pass",

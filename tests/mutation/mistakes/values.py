@@ -9,6 +9,7 @@ from mistakes.sources import (
     BDPT,
     BSDF,
     BSDFS,
+    CACHE,
     CAMERAS,
     CAPS,
     CLAMP,
@@ -235,9 +236,9 @@ VALUES = (
         0,
         "of two cached vertices the brighter one is joined, as if it had been picked uniformly",
         PICTURES,
-        BDPT,
-        "picks.entries[n] = cache_.at(i);",
-        "picks.entries[n] = cache_.at(i); const auto other = cache_.at(size - 1 - i);"
+        CACHE,
+        "picks.entries[n] = at(std::min(i, size() - 1));",
+        "picks.entries[n] = at(std::min(i, size() - 1)); const auto other = at(size() - 1 - i);"
         " if (other.vertex->bound > picks.entries[n].vertex->bound) { picks.entries[n] = other; }",
     ),
 )
