@@ -49,7 +49,7 @@ def build(page: str):
     import bpy
 
     from scenes import kit
-    from tests.images.node_cases import Tree
+    from tests.images.node_cases import material
     from tests.images.world_scenes import set_tree
 
     scene = bpy.context.scene
@@ -69,13 +69,6 @@ def build(page: str):
     mesh.materials.append(None)
     for index, name in enumerate(names(page)):
         row, column = divmod(index, COLUMNS)
-        material = bpy.data.materials.new(name)
-        if bpy.app.version < (5, 0, 0):
-            material.use_nodes = True
-        tree = material.node_tree
-        tree.nodes.clear()
-        output = tree.nodes.new("ShaderNodeOutputMaterial")
-        tree.links.new(closure_cells.CELLS[name](Tree(tree)), output.inputs["Surface"])
         ball = bpy.data.objects.new(f"Ball {index}", mesh)
         ball.location = (
             column - (COLUMNS - 1) / 2,
@@ -83,7 +76,7 @@ def build(page: str):
             row - (rows(page) - 1) / 2,
         )
         ball.material_slots[0].link = "OBJECT"
-        ball.material_slots[0].material = material
+        ball.material_slots[0].material = material(name, closure_cells.CELLS[name])
         scene.collection.objects.link(ball)
     kit.camera(scene, (0.0, -20.0, 0.0), (0.0, 0.0, 0.0), clip=(0.1, 1000.0))
     scene.camera.data.type = "ORTHO"

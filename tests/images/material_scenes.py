@@ -130,31 +130,24 @@ def build(name: str):
 
     from scenes import kit
     from scenes.textured import unfold
-    from tests.images.node_cases import Tree
+    from tests.images.node_cases import material
 
     scene = bpy.context.scene
     kit.neutral_settings(scene, SIZE, SIZE)
     kit.limit_bounces(scene.cycles, BOUNCES)
     kit.world(scene)
-    material = bpy.data.materials.new(name)
-    if bpy.app.version < (5, 0, 0):
-        material.use_nodes = True
-    tree = material.node_tree
-    tree.nodes.clear()
-    output = tree.nodes.new("ShaderNodeOutputMaterial")
-    tree.links.new(CASES[name](Tree(tree)), output.inputs["Surface"])
-
+    subject = material(name, CASES[name])
     white = kit.diffuse("White", (0.7, 0.7, 0.7))
     s = 1.2
     kit.quad(scene, "Back", [(-s, s, 0), (s, s, 0), (s, s, 2), (-s, s, 2)], white)
     kit.quad(scene, "Left", [(-s, -s, 0), (-s, s, 0), (-s, s, 2), (-s, -s, 2)], white)
     corners = [(-s, -s, 0), (s, -s, 0), (s, s, 0), (-s, s, 0)]
-    others = white if name in MIRRORS else material
+    others = white if name in MIRRORS else subject
     floor = kit.quad(scene, "Floor", corners, others)
     ball = kit.sphere(scene, "Ball", 0.5, others, 32)
     ball.location = (0.45, 0.2, 0.55)
     h = 0.4
-    pane = kit.quad(scene, "Pane", [(-h, 0, -h), (h, 0, -h), (h, 0, h), (-h, 0, h)], material)
+    pane = kit.quad(scene, "Pane", [(-h, 0, -h), (h, 0, -h), (h, 0, h), (-h, 0, h)], subject)
     pane.location, pane.rotation_euler = (-0.5, 0.0, 0.5), (0.2, 0.1, 0.5)
     for body in (floor, ball, pane):
         unfold(body)

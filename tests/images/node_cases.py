@@ -88,6 +88,20 @@ class Tree:
         return self.out("CombineColor", {0: turned, 1: v, 2: w}, mode="HSV")
 
 
+def material(name: str, shader):
+    """A material: shader(tree) makes its nodes and gives the last socket."""
+    import bpy
+
+    made = bpy.data.materials.new(name)
+    if bpy.app.version < (5, 0, 0):
+        made.use_nodes = True
+    tree = made.node_tree
+    tree.nodes.clear()
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(shader(Tree(tree)), output.inputs["Surface"])
+    return made
+
+
 def subject(socket) -> str:
     """The type of the node that a case is about: the last one that is not around another."""
     while socket.node.label == AROUND:

@@ -19,23 +19,21 @@ void Image::pack() {
     }
     return value[byte] == x ? std::optional(byte) : std::nullopt;
   };
-  const int across = blocks_across();
-  decltype(blocks) made(static_cast<size_t>(across) * ((height + 3) / 4));
+  blocks.resize(static_cast<size_t>((width + 3) / 4) * ((height + 3) / 4));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const size_t at = (static_cast<size_t>(y) * width + x) * channels;
-      auto& rgba =
-          made[static_cast<size_t>(y >> 2) * across + (x >> 2)].rgba[(y & 3) << 2 | (x & 3)];
+      auto& rgba = blocks[block_of(x, y)].rgba[place_in_block(x, y)];
       for (int c = 0; c < 4; ++c) {
         const auto byte = packed(c < channels ? pixels[at + c] : 1.0f);
         if (!byte) {
+          blocks = {};
           return;
         }
         rgba[c] = *byte;
       }
     }
   }
-  blocks = std::move(made);
 }
 
 }  // namespace janus

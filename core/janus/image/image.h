@@ -35,11 +35,16 @@ struct Image {
   // for an alpha that they lack. For pixels that stay as they are from now on.
   void pack();
 
-  int blocks_across() const { return (width + 3) / 4; }
+  // Of a pixel, where `blocks` are filled.
   const std::array<uint8_t, 4>& bytes(int x, int y) const {
-    const size_t row = static_cast<size_t>(y >> 2) * blocks_across();
-    return blocks[row + (x >> 2)].rgba[(y & 3) << 2 | (x & 3)];
+    return blocks[block_of(x, y)].rgba[place_in_block(x, y)];
   }
+
+ private:
+  size_t block_of(int x, int y) const {
+    return static_cast<size_t>(y >> 2) * ((width + 3) >> 2) + (x >> 2);
+  }
+  static int place_in_block(int x, int y) { return (y & 3) << 2 | (x & 3); }
 };
 
 }  // namespace janus

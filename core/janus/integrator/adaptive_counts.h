@@ -27,7 +27,8 @@ class AdaptiveCounts {
  public:
   // The least that a pass keeps doing. What camera walks find once in a million, and then blinding
   // (the sun in a window, seen by a wall), a single pass cannot show; a few light paths find it far
-  // more often, and their weights take it from the camera walks. They cost a hundredth.
+  // more often, and their weights take it from the camera walks. Their rays are few (3 % of the
+  // camera's in a garden); what costs a tenth is that camera walks keep densities for them.
   static constexpr float kInsurance = 1.0f / 32.0f;
 
   // Efforts relative to the measured pass, whose own is 1, 1; the first is nearly path tracing.

@@ -252,6 +252,8 @@ class Bdpt final : public PassIntegrator {
     sampler.start_block(0);
     const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
     const Roulette roulette = roulette_.at(raster);
+    // Where nothing else asks for shadow rays, its one ray costs less than roulette's noise.
+    const Roulette nee_roulette = counts_.connection > 0.0f ? roulette : Roulette();
     const float share = specular_walks_.share(index);
     AdaptiveCounts::Gauge meter = gauge(raster, moments);
     Rgb sum(0.0f);
@@ -270,8 +272,6 @@ class Bdpt final : public PassIntegrator {
           }
         },
         [&](const PathVertex& v, Sampler& walk) {
-          // Where there is little else to do, its one ray is worth its noise.
-          const Roulette nee_roulette = counts_.connection > 0.0f ? roulette : Roulette();
           if (v.edges == 1 && std::ranges::any_of(v.bsdf().lobes(), is_delta)) {
             specular_walks_.saw(index);
           }

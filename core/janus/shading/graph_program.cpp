@@ -181,22 +181,19 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
         free[is_vector(definition.type)].push_back(place[operand.index]);
       }
     }
+    const auto first = static_cast<uint32_t>(program_.operands.size());
+    for (const Value operand : step.operands) {
+      program_.operands.push_back(static_cast<uint16_t>(place[operand.index]));
+    }
     if (step.operation.prefetch && asked.insert(step.operands[0].index).second) {
       // Those that look at the same place then wait for memory together.
       for (size_t other = s + 1; other < steps_.size(); ++other) {
         const Step& o = steps_[other];
         if (o.operation.prefetch && used[o.result.index] &&
             o.operands[0].index == step.operands[0].index) {
-          program_.operands.push_back(static_cast<uint16_t>(place[o.operands[0].index]));
-          program_.instructions.push_back({o.operation.prefetch,
-                                           static_cast<uint32_t>(program_.operands.size() - 1),
-                                           o.data, 0, o.at});
+          program_.instructions.push_back({o.operation.prefetch, first, o.data, 0, o.at});
         }
       }
-    }
-    const auto first = static_cast<uint32_t>(program_.operands.size());
-    for (const Value operand : step.operands) {
-      program_.operands.push_back(static_cast<uint16_t>(place[operand.index]));
     }
     program_.instructions.push_back({step.operation.kernel, first, step.data,
                                      static_cast<uint16_t>(place[step.result.index]), step.at});

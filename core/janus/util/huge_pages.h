@@ -11,7 +11,7 @@
 namespace janus {
 
 // Allocates for containers of tables that are looked up at random places: in huge pages, where the
-// system has them to give, since a walk over page tables costs more than the memory it leads to.
+// system has them to give, so that fewer lookups wait for a walk over page tables.
 template <class T>
 struct HugePages {
   using value_type = T;

@@ -11,8 +11,8 @@
 namespace janus::test {
 namespace {
 
-Image bytes(int channels) {
-  Image image(18, 7, channels);
+Image bytes(int channels, int width = 18, int height = 7) {
+  Image image(width, height, channels);
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     image.pixels[i] = static_cast<float>(31 * i % 256) / 255.0f;
   }
@@ -34,6 +34,30 @@ TEST(ImagePack, KeepsWhatWereBytes) {
         EXPECT_EQ(a.lookup(uv), b.lookup(uv)) << uv.x;
       }
     }
+  }
+}
+
+// As many as huge pages are for.
+TEST(ImagePack, KeepsLargePictures) {
+  const Image plain = bytes(4, 1030, 1027);
+  Image packed = plain;
+  packed.pack();
+  for (const auto& [x, y] : {std::pair(0, 0), {1029, 0}, {0, 1026}, {1029, 1026}, {517, 3}}) {
+    for (int c = 0; c < 4; ++c) {
+      const float value = plain.pixels[(static_cast<size_t>(y) * 1030 + x) * 4 + c];
+      EXPECT_EQ(packed.value[packed.bytes(x, y)[c]], value) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(Texture, DecodesSrgb) {
+  Texture texture;
+  texture.srgb = true;
+  for (int i = 0; i <= 30000; ++i) {
+    const float x = 1e-4f * static_cast<float>(i);
+    const double linear =
+        x <= 0.04045f ? x / 12.92 : std::pow((static_cast<double>(x) + 0.055) / 1.055, 2.4);
+    EXPECT_NEAR(texture.decode(vec4(x, 0, 0, 1)).x, linear, x < 1.0f ? 3e-7 : 1e-6 * linear) << x;
   }
 }
 
