@@ -89,8 +89,9 @@ void set_light(SceneBuilder& self, Key key, std::string name, const std::string&
                float spread, float spot_size, float spot_blend, bool spot_square, float angle,
                bool normalize, float exposure, bool visible_camera, bool visible_diffuse,
                bool visible_glossy, bool visible_transmission, bool cast_shadow, int max_bounces,
-               const std::optional<py::dict>& graph) {
+               const std::optional<py::dict>& graph, std::string light_group) {
   LightDesc desc;
+  desc.light_group = std::move(light_group);
   desc.name = std::move(name);
   desc.type = from_name(kLightTypes, type, "light type");
   desc.transform = to_matrix(key, transform);
@@ -277,7 +278,8 @@ void bind_scene(py::module_& m) {
              const py::object& transform, std::vector<std::optional<std::string>> materials,
              bool camera, bool diffuse, bool glossy, bool transmission, bool shadow, bool holdout,
              const std::array<float, 4>& color, float object_index, float random,
-             const std::map<std::string, std::array<float, 4>>& attributes) {
+             const std::map<std::string, std::array<float, 4>>& attributes,
+             std::string light_group) {
             InstanceDesc desc{std::move(name),
                               std::move(mesh),
                               to_matrix(key, transform),
@@ -287,7 +289,8 @@ void bind_scene(py::module_& m) {
                               vec4(color[0], color[1], color[2], color[3]),
                               object_index,
                               random,
-                              {}};
+                              {},
+                              std::move(light_group)};
             for (const auto& [name, v] : attributes) {
               desc.attributes[name] = vec4(v[0], v[1], v[2], v[3]);
             }
@@ -299,11 +302,12 @@ void bind_scene(py::module_& m) {
           "visible_shadow"_a = true, "holdout"_a = false,
           "color"_a = std::array{1.0f, 1.0f, 1.0f, 1.0f}, "object_index"_a = 0.0f,
           "random"_a = 0.0f, "attributes"_a = std::map<std::string, std::array<float, 4>>(),
+          "light_group"_a = "",
           "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot; "
           "visible_*: the rays that meet it; holdout: leaves a hole in the picture where the "
           "camera "
-          "sees it; attributes: four numbers under each key (see set_material()); the rest is what "
-          "the Object Info node says.")
+          "sees it; attributes: four numbers under each key (see set_material()); light_group: "
+          "of what it emits; the rest is what the Object Info node says.")
       .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,
            "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f,
            "soft_falloff"_a = true, "shape"_a = "SQUARE", "size"_a = 0.25f, "size_y"_a = 0.25f,
@@ -311,14 +315,16 @@ void bind_scene(py::module_& m) {
            "spot_square"_a = false, "angle"_a = 0.0f, "normalize"_a = true, "exposure"_a = 0.0f,
            "visible_camera"_a = true, "visible_diffuse"_a = true, "visible_glossy"_a = true,
            "visible_transmission"_a = true, "cast_shadow"_a = true, "max_bounces"_a = 1024,
-           "graph"_a = py::none(),
+           "graph"_a = py::none(), "light_group"_a = "",
            "A light object, in Blender's words and units: type POINT, SPOT, SUN or AREA; energy in "
            "watts (sun: W/m^2); angles in radians; shape SQUARE, RECTANGLE, DISK or ELLIPSE.")
       .def(
           "set_world",
           [](SceneBuilder& self, std::string name, const std::optional<py::dict>& graph,
-             bool camera, bool diffuse, bool glossy, bool transmission) {
+             bool camera, bool diffuse, bool glossy, bool transmission,
+             std::string light_group) {
             WorldDesc desc;
+            desc.light_group = std::move(light_group);
             desc.visibility = to_mask(camera, diffuse, glossy, transmission);
             if (graph) {
               desc.graph = to_graph(name, *graph);
@@ -327,7 +333,7 @@ void bind_scene(py::module_& m) {
             self.set_world(std::move(desc));
           },
           py::kw_only(), "name"_a, "graph"_a, "visible_camera"_a = true, "visible_diffuse"_a = true,
-          "visible_glossy"_a = true, "visible_transmission"_a = true,
+          "visible_glossy"_a = true, "visible_transmission"_a = true, "light_group"_a = "",
           "The background; graph None: black.")
       .def(
           "set_camera", &set_camera, py::kw_only(), "name"_a, "type"_a = "PERSP", "transform"_a,

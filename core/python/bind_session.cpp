@@ -18,6 +18,8 @@ constexpr EnumName<FilterType> kFilters[] = {{"BLACKMAN_HARRIS", FilterType::Bla
                                              {"BOX", FilterType::Box}};
 constexpr EnumName<Heuristic> kHeuristics[] = {{"BALANCE", Heuristic::Balance},
                                                {"POWER", Heuristic::Power}};
+constexpr EnumName<ConnectionMode> kConnectionModes[] = {{"CACHE", ConnectionMode::Cache},
+                                                         {"CLASSIC", ConnectionMode::Classic}};
 constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Waiting},
                                                  {"rendering", Progress::State::Rendering},
                                                  {"done", Progress::State::Done},
@@ -28,6 +30,43 @@ constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Wa
 // -------------------------------------------------------------------------------------
 
 using Crop = std::optional<std::array<int, 4>>;
+using Expressions = std::vector<std::pair<std::string, std::string>>;
+
+// With these "weights", strategies are averaged.
+constexpr const char* kNoWeights = "NONE";
+
+std::optional<Strategies> to_strategies(const std::string& heuristic, const std::string& text) {
+  if (heuristic != kNoWeights) {
+    if (!text.empty()) {
+      throw SceneError("settings", "strategies", "can be chosen with the heuristic NONE only");
+    }
+    return std::nullopt;
+  }
+  try {
+    return Strategies::parse(text);
+  } catch (const Error& error) {
+    throw SceneError("settings", "strategies", error.what());
+  }
+}
+
+Expressions to_list(const std::vector<ExpressionPass>& passes) {
+  Expressions list;
+  for (const ExpressionPass& pass : passes) {
+    list.emplace_back(pass.name, pass.expression);
+  }
+  return list;
+}
+
+// The message of what `parse` throws for `text`; empty: nothing is wrong.
+template <class Parse>
+std::string complaint(const std::string& text, Parse&& parse) {
+  try {
+    parse(text);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
 
 RenderSettings make_settings(int width, int height, const Crop& crop, int samples, double seconds,
                              uint32_t seed, int threads, int max_bounces, int max_diffuse_bounces,
@@ -38,7 +77,10 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
                              float merge_radius, bool adaptive_counts, const std::string& heuristic,
                              float film_exposure, bool film_transparent,
                              bool film_transparent_glass, float film_transparent_roughness,
-                             bool roulette, bool check_weights) {
+                             bool roulette, bool check_weights, bool next_event,
+                             const std::string& connection_mode, const std::string& strategies,
+                             const Expressions& expressions,
+                             const std::vector<std::string>& light_passes, int strategy_images) {
   RenderSettings s;
   s.width = width;
   s.height = height;
@@ -63,7 +105,16 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
   s.connections = connections;
   s.merge_radius = merge_radius;
   s.adaptive_counts = adaptive_counts;
-  s.heuristic = from_name(kHeuristics, heuristic, "heuristic");
+  s.strategies = to_strategies(heuristic, strategies);
+  s.heuristic =
+      s.strategies ? Heuristic::Balance : from_name(kHeuristics, heuristic, "heuristic");
+  s.next_event = next_event;
+  s.connection_mode = from_name(kConnectionModes, connection_mode, "connection_mode");
+  for (const auto& [name, expression] : expressions) {
+    s.expressions.push_back({name, expression});
+  }
+  s.light_passes = light_passes;
+  s.strategy_images = strategy_images;
   s.film_exposure = film_exposure;
   s.film_transparent = film_transparent;
   s.film_transparent_glass = film_transparent_glass;
@@ -98,7 +149,13 @@ py::dict to_dict(const RenderSettings& s) {
   d["connections"] = s.connections;
   d["merge_radius"] = s.merge_radius;
   d["adaptive_counts"] = s.adaptive_counts;
-  d["heuristic"] = to_name(kHeuristics, s.heuristic);
+  d["heuristic"] = s.strategies ? kNoWeights : to_name(kHeuristics, s.heuristic);
+  d["strategies"] = s.strategies ? s.strategies->text() : "";
+  d["next_event"] = s.next_event;
+  d["connection_mode"] = to_name(kConnectionModes, s.connection_mode);
+  d["expressions"] = to_list(s.expressions);
+  d["light_passes"] = s.light_passes;
+  d["strategy_images"] = s.strategy_images;
   d["film_exposure"] = s.film_exposure;
   d["film_transparent"] = s.film_transparent;
   d["film_transparent_glass"] = s.film_transparent_glass;
@@ -123,7 +180,13 @@ void bind_settings(py::module_& m) {
       "pixels; light_paths per pixel; connections per camera vertex; "
       "merge_radius: bdpt also merges vertices that are so close, in scene units, 0 for none; "
       "adaptive_counts: bdpt starts with these two and then takes what is most efficient for the "
-      "scene; heuristic: BALANCE or POWER; "
+      "scene; heuristic: BALANCE or POWER, or NONE: bdpt without weights; strategies: then those "
+      "alone, as '0,* 2,3' (s vertices from the light, t from the camera), averaged by length; "
+      "next_event: False leaves next event estimation out: pt then finds lights by hitting them, "
+      "and lt a camera with a lens; connection_mode: CACHE or CLASSIC (a light path for each "
+      "camera path); expressions: (name, light path expression) of each additional pass; "
+      "light_passes: Cycles' passes by Blender's names, DiffDir, DiffInd, DiffCol, the same of "
+      "Gloss and Trans, Emit and Env; strategy_images: bdpt makes passes for each strategy of paths of up to so many edges; "
       "film_exposure: a factor of the colour; film_transparent: the world is not in the picture; "
       "film_transparent_glass: nor behind glass of up to film_transparent_roughness; "
       "roulette: False traces every path and every shadow ray to its end (slow); "
@@ -144,7 +207,12 @@ void bind_settings(py::module_& m) {
                "film_exposure"_a = d.film_exposure, "film_transparent"_a = d.film_transparent,
                "film_transparent_glass"_a = d.film_transparent_glass,
                "film_transparent_roughness"_a = d.film_transparent_roughness,
-               "roulette"_a = d.roulette, "check_weights"_a = d.check_weights);
+               "roulette"_a = d.roulette, "check_weights"_a = d.check_weights,
+               "next_event"_a = d.next_event,
+               "connection_mode"_a = to_name(kConnectionModes, d.connection_mode),
+               "strategies"_a = "", "expressions"_a = Expressions(),
+               "light_passes"_a = std::vector<std::string>(),
+               "strategy_images"_a = d.strategy_images);
   settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
   settings.def("__repr__", [](const RenderSettings& s) {
     return py::str("RenderSettings(**{!r})").format(to_dict(s));
@@ -226,13 +294,14 @@ py::dict stats(const RenderSession& self) {
 }
 
 py::array_t<float> snapshot(const RenderSession& self, const std::string& name) {
-  if (name != "Combined") {
-    throw py::value_error("there is no pass '" + name + "', only 'Combined'");
+  const std::vector<std::string> names = self.passes();
+  if (std::ranges::find(names, name) == names.end()) {
+    throw py::value_error("there is no pass '" + name + "' in this render");
   }
   std::unique_ptr<Image> image;
   {
     const py::gil_scoped_release release;
-    image = std::make_unique<Image>(self.snapshot());
+    image = std::make_unique<Image>(self.snapshot(name));
   }
   const py::ssize_t shape[] = {image->height, image->width, image->channels};
   const float* pixels = image->pixels.data();
@@ -244,6 +313,18 @@ py::array_t<float> snapshot(const RenderSession& self, const std::string& name) 
 
 void bind_session(py::module_& m) {
   bind_settings(m);
+  m.def(
+      "check_expression",
+      [](const std::string& text) {
+        return complaint(text, [](const std::string& t) { parse_expression(t); });
+      },
+      "text"_a, "What is wrong with a light path expression, for the user; empty: nothing.");
+  m.def(
+      "check_strategies",
+      [](const std::string& text) {
+        return complaint(text, [](const std::string& t) { Strategies::parse(t); });
+      },
+      "text"_a, "What is wrong with a choice of strategies, for the user; empty: nothing.");
   // release_gil_before_calling_cpp_dtor: the destructor waits for the render threads.
   py::class_<RenderSession>(m, "RenderSession", py::release_gil_before_calling_cpp_dtor(),
                             "One render, on threads of its own that never run Python. Dropping it "
@@ -262,7 +343,14 @@ void bind_session(py::module_& m) {
            "Asks the render to stop and returns. Whole passes are kept.")
       .def("snapshot", &snapshot, "name"_a = "Combined",
            "The mean of the whole passes so far: float32 [height, width, 4] of the crop, scene "
-           "linear, premultiplied alpha, bottom row first. A new array each time.")
+           "linear, premultiplied alpha, bottom row first; [height, width, 3] of other passes than "
+           "Combined. A new array each time.")
+      .def("passes", &RenderSession::passes,
+           "The names that snapshot() knows: Combined, the expressions', then the strategies': "
+           "'s1 t2 weighted', 's1 t2 alone' (without weight), and 'longer weighted'.")
+      .def_property_readonly(
+          "diagnostics", [](const RenderSession& s) { return s.diagnostics(); },
+          "What of the settings has no effect in this scene: list of Diagnostic.")
       .def("finish", &finish,
            "Waits for the end and raises what went wrong on the render threads, if anything.")
       .def("stats", &stats,

@@ -38,6 +38,27 @@ class Aperture {
     return radius_ * vec2(p.x * inverse_ratio_, p.y);
   }
 
+  // Square metres.
+  float area() const {
+    const size_t n = corners_.size();
+    const float unit =
+        n == 0 ? kPi : 0.5f * static_cast<float>(n) * std::sin(2.0f * kPi / static_cast<float>(n));
+    return unit * radius_ * radius_ * inverse_ratio_;
+  }
+
+  // Is a point of the lens, in the units of sample(), in the opening?
+  bool contains(vec2 p) const {
+    const vec2 unit = vec2(p.x / inverse_ratio_, p.y) / radius_;
+    for (size_t i = 0; i < corners_.size(); ++i) {
+      const vec2 edge = corners_[i + 1 < corners_.size() ? i + 1 : 0] - corners_[i];
+      const vec2 to = unit - corners_[i];
+      if (edge.x * to.y - edge.y * to.x < 0.0f) {
+        return false;
+      }
+    }
+    return !corners_.empty() || dot(unit, unit) <= 1.0f;
+  }
+
  private:
   float radius_, inverse_ratio_;
   std::vector<vec2> corners_;  // on the unit circle

@@ -61,6 +61,12 @@ struct CameraConnection {
   float importance() const { return camera_density(density, 1.0f, distance2); }
 };
 
+// Where light that flies about by itself comes through the lens (t = 0).
+struct LensHit {
+  vec2 raster;
+  float importance;  // W_e: a pixel's response to the flux that comes in here
+};
+
 class Camera {
  public:
   virtual ~Camera() = default;
@@ -70,6 +76,15 @@ class Camera {
   // The inverse: sample_ray(raster, u_lens) passes through `p`. nullopt outside the frame grown by
   // `margin` pixels (infinite: everywhere), or outside the clipping range.
   virtual std::optional<CameraConnection> connect(vec3 p, vec2 u_lens, float margin) const = 0;
+
+  // Has it a lens that can be hit? Pinholes have not, nor have cameras that are more than one lens.
+  virtual bool hittable() const { return false; }
+  // Where `ray` meets the lens between two distances. The lens is not in the ray's way.
+  virtual std::optional<LensHit> hit_lens(const Ray& ray, float t_begin, float t_end,
+                                          float margin) const {
+    (void)ray, (void)t_begin, (void)t_end, (void)margin;
+    return std::nullopt;
+  }
 };
 
 std::unique_ptr<Camera> make_camera(const CameraDesc& desc, int width, int height);

@@ -68,6 +68,31 @@ class PerspectiveCamera final : public Camera {
     return to_camera;
   }
 
+  bool hittable() const override { return !aperture_.pinhole(); }
+
+  // W_e is what sample_ray() draws: a lens point by its area, a film position by solid angle.
+  std::optional<LensHit> hit_lens(const Ray& ray, float t_begin, float t_end,
+                                  float margin) const override {
+    const vec3 origin = pose_.to_local(ray.origin);
+    const vec3 d = glm::transpose(pose_.rotation) * ray.direction;
+    if (!(d.z > 0.0f) || aperture_.pinhole()) {  // lit from behind, it sees nothing
+      return std::nullopt;
+    }
+    const float t = -origin.z / d.z;
+    if (!(t > t_begin && t < t_end)) {
+      return std::nullopt;
+    }
+    const vec2 lens = vec2(origin) + t * vec2(d);
+    const vec2 chief = lens / focus_ - vec2(d) / d.z;
+    const float chief_length = std::sqrt(1.0f + dot(chief, chief));
+    const vec2 raster = window_.to_raster(chief);
+    if (!aperture_.contains(lens) || !window_.contains(raster, margin) ||
+        !(t > near_ * chief_length && t < far_ * chief_length)) {
+      return std::nullopt;
+    }
+    return LensHit{raster, pdf_solid(d.z) / (aperture_.area() * d.z)};
+  }
+
  private:
   // One film position per pixel: on the plane of focus (as on any), a pixel has the area of its
   // window times the squared distance of the plane; seen from the lens point under cos^3.

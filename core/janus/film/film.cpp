@@ -10,26 +10,32 @@ namespace {
 constexpr int kBandRows = 16;
 }
 
-Film::Film(FilmRect rect, Filter filter)
+Film::Film(FilmRect rect, Filter filter, size_t layers)
     : rect_(rect),
       filter_(std::move(filter)),
       pass_(rect.pixels(), vec4(0.0f)),
       pass_splats_(rect.pixels(), Rgb(0.0f)),
-      sum_(rect.pixels(), glm::dvec4(0.0)) {}
+      sum_(rect.pixels(), glm::dvec4(0.0)),
+      layer_count_(layers),
+      pass_layers_(rect.pixels() * layers, Rgb(0.0f)),
+      sum_layers_(rect.pixels() * layers, glm::dvec3(0.0)) {}
 
 void Film::begin_pass() {
   std::fill(pass_.begin(), pass_.end(), vec4(0.0f));
   std::fill(pass_splats_.begin(), pass_splats_.end(), Rgb(0.0f));
+  std::fill(pass_layers_.begin(), pass_layers_.end(), Rgb(0.0f));
 }
 
-void Film::add_splats(std::span<const std::vector<Splat>> blocks, ThreadPool& pool) {
+template <class AnySplat, class Add>
+void Film::for_each_splat(std::span<const std::vector<AnySplat>> blocks, ThreadPool& pool,
+                          Add&& add) const {
   const size_t bands = (rect_.height() + kBandRows - 1) / kBandRows;
   const float radius = filter_.radius();
   pool.parallel_for(bands, [&](size_t band) {
     const int band_y0 = rect_.y0 + static_cast<int>(band) * kBandRows;
     const int band_y1 = std::min(band_y0 + kBandRows, rect_.y1);
-    for (const std::vector<Splat>& block : blocks) {
-      for (const Splat& splat : block) {
+    for (const std::vector<AnySplat>& block : blocks) {
+      for (const AnySplat& splat : block) {
         // Pixels whose centre lies within the filter's support.
         const int y0 =
             std::max(band_y0, static_cast<int>(std::ceil(splat.raster.y - radius - 0.5f)));
@@ -45,12 +51,23 @@ void Film::add_splats(std::span<const std::vector<Splat>> blocks, ThreadPool& po
         for (int y = y0; y <= y1; ++y) {
           for (int x = x0; x <= x1; ++x) {
             const float weight = filter_.evaluate(splat.raster - vec2(x + 0.5f, y + 0.5f));
-            pass_splats_[static_cast<size_t>(y - rect_.y0) * rect_.width() + (x - rect_.x0)] +=
-                weight * splat.value;
+            add(static_cast<size_t>(y - rect_.y0) * rect_.width() + (x - rect_.x0),
+                weight * splat.value, splat);
           }
         }
       }
     }
+  });
+}
+
+void Film::add_splats(std::span<const std::vector<Splat>> blocks, ThreadPool& pool) {
+  for_each_splat(blocks, pool,
+                 [&](size_t pixel, Rgb value, const Splat&) { pass_splats_[pixel] += value; });
+}
+
+void Film::add_splats(std::span<const std::vector<LayerSplat>> blocks, ThreadPool& pool) {
+  for_each_splat(blocks, pool, [&](size_t pixel, Rgb value, const LayerSplat& splat) {
+    pass_layers_[pixel * layer_count_ + splat.layer] += value;
   });
 }
 
@@ -59,6 +76,9 @@ void Film::end_pass(ThreadPool& pool) {
     const size_t w = rect_.width();
     for (size_t i = row * w; i < (row + 1) * w; ++i) {
       sum_[i] += glm::dvec4(pass_[i]) + glm::dvec4(pass_splats_[i], 0.0f);
+    }
+    for (size_t i = row * w * layer_count_; i < (row + 1) * w * layer_count_; ++i) {
+      sum_layers_[i] += glm::dvec3(pass_layers_[i]);
     }
   });
   ++passes_;
@@ -71,6 +91,20 @@ Image Film::develop(float exposure) const {
       for (int c = 0; c < 4; ++c) {
         const double factor = c < 3 ? exposure : 1.0;
         image.pixels[4 * i + c] = static_cast<float>(factor * sum_[i][c] / passes_);
+      }
+    }
+  }
+  return image;
+}
+
+Image Film::develop_layer(size_t layer, float exposure) const {
+  Image image(rect_.width(), rect_.height(), 3);
+  if (passes_ > 0) {
+    const double factor = exposure / static_cast<double>(passes_);
+    for (size_t i = 0; i < rect_.pixels(); ++i) {
+      const glm::dvec3 mean = factor * sum_layers_[i * layer_count_ + layer];
+      for (int c = 0; c < 3; ++c) {
+        image.pixels[3 * i + c] = static_cast<float>(mean[c]);
       }
     }
   }

@@ -26,15 +26,25 @@ struct Splat {
   Rgb value;
 };
 
+// A contribution to a layer.
+struct LayerSplat {
+  vec2 raster;
+  Rgb value;
+  uint32_t layer;
+};
+
 // Accumulates whole passes. A pass writes its camera samples (one per pixel, each pixel by one
 // thread) and its splats; end_pass() adds both to the sums, so an abandoned pass leaves no trace.
 // Every sum is taken in a fixed order, so the image does not depend on the number of threads.
+//
+// Layers are more pictures, in colour alone, to which integrators add what they want to show apart.
 class Film {
  public:
-  Film(FilmRect rect, Filter filter);
+  Film(FilmRect rect, Filter filter, size_t layers = 0);
 
   const FilmRect& rect() const { return rect_; }
   const Filter& filter() const { return filter_; }
+  size_t layers() const { return layer_count_; }
 
   // The raster position of the sample for pixel `index` of the rect (row-major), u in [0,1)^2.
   vec2 sample_position(size_t index, vec2 u) const {
@@ -51,6 +61,12 @@ class Film {
   void add_splats(std::span<const std::vector<Splat>> blocks, ThreadPool& pool);
   void end_pass(ThreadPool& pool);
 
+  // The layers of a pixel in this pass, to add to; as add_sample().
+  std::span<Rgb> layers_at(size_t index) {
+    return std::span(pass_layers_).subspan(index * layer_count_, layer_count_);
+  }
+  void add_splats(std::span<const std::vector<LayerSplat>> blocks, ThreadPool& pool);
+
   int passes() const { return passes_; }
 
   // The mean of a pixel over the passes (at least one).
@@ -59,14 +75,23 @@ class Film {
   // The mean over the passes: RGBA, premultiplied, its colour times `exposure`; black before the
   // first pass.
   Image develop(float exposure = 1.0f) const;
+  // Of a layer: RGB.
+  Image develop_layer(size_t layer, float exposure = 1.0f) const;
 
  private:
+  template <class AnySplat, class Add>
+  void for_each_splat(std::span<const std::vector<AnySplat>> blocks, ThreadPool& pool,
+                      Add&& add) const;
+
   FilmRect rect_;
   Filter filter_;
   int passes_ = 0;
   std::vector<vec4> pass_;        // camera samples of the running pass
   std::vector<Rgb> pass_splats_;  // light image of the running pass
   std::vector<glm::dvec4> sum_;   // both, over whole passes
+  size_t layer_count_;
+  std::vector<Rgb> pass_layers_;        // all layers of a pixel in a row; samples and splats
+  std::vector<glm::dvec3> sum_layers_;  // likewise
 };
 
 }  // namespace janus

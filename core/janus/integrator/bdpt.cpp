@@ -14,10 +14,9 @@
 // To bound the cache, a pass runs in waves: a range of its light paths with a cache of their own,
 // then an interleaved subset of its pixels.
 #include "janus/integrator/adaptive_counts.h"
+#include "janus/integrator/bidirectional.h"
 #include "janus/integrator/merging.h"
-#include "janus/integrator/pass.h"
 #include "janus/integrator/pilot.h"
-#include "janus/integrator/roulette_map.h"
 #include "janus/integrator/specular_walks.h"
 #include "janus/path/oracle.h"
 
@@ -28,12 +27,11 @@ namespace {
 constexpr int kMeasuredPass = 1;      // adaptive counts; the pass before it shows what is bright
 constexpr size_t kOracleStride = 97;  // debug mode checks every 97th pixel
 
-class Bdpt final : public PassIntegrator {
+class Bdpt final : public BidirectionalIntegrator {
  public:
   Bdpt(const RenderContext& context, const IntegratorSettings& settings)
-      : PassIntegrator(context, settings),
+      : BidirectionalIntegrator(context, settings),
         effort_{settings.light_paths, settings.connections},
-        mis_(settings.heuristic, counts_),
         merging_(settings.merge_radius, context.scene.accel->bounds()),
         specular_walks_(context.film.rect()),
         specular_(settings.walk) {
@@ -43,7 +41,7 @@ class Bdpt final : public PassIntegrator {
       cached_path_ = measure_cached_path(context, settings, mis_, merging_.used());
     }
     set_effort(effort_);
-    if (!settings_.only && !settings_.check_weights) {
+    if (!plain() && !settings_.check_weights) {
       path_tracer_ = make_path_tracer(context, settings);
     }
   }
@@ -54,7 +52,7 @@ class Bdpt final : public PassIntegrator {
       path_tracer_->render_pass(pass);
       return;
     }
-    if (settings_.contribution_roulette && !settings_.only) {
+    if (settings_.contribution_roulette && !plain()) {
       roulette_.update(context_.film, pass);
     }
     const bool measure = pass == kMeasuredPass && adapts();
@@ -94,17 +92,20 @@ class Bdpt final : public PassIntegrator {
   // Weights with a square tell less about other counts, and debugging wants the counts given.
   bool adapts() const {
     return settings_.adaptive_counts && settings_.heuristic == Heuristic::Balance && !merges() &&
-           !settings_.only && effort_.light_paths > 0.0f && effort_.connections > 0.0f &&
+           !plain() && effort_.light_paths > 0.0f && effort_.connections > 0.0f &&
            light_paths_ > 0 && counts_.connection > 0.0f;
   }
 
-  // Is there light for specular walks to find? Debugging wants the techniques alone.
+  // Are the strategies to be seen as they are?
+  bool plain() const { return settings_.strategies || settings_.layers.longest > 0; }
+
+  // Is there light for specular walks to find?
   bool walks_more() const {
-    return context_.scene.surfaces.any_delta() && !settings_.only &&
+    return context_.scene.surfaces.any_delta() && !plain() &&
            std::ranges::any_of(context_.scene.lights, [](const auto& l) { return l->hittable(); });
   }
 
-  bool merges() const { return merging_.used() && light_paths_ > 0 && !settings_.only; }
+  bool merges() const { return merging_.used() && light_paths_ > 0 && !plain(); }
 
   // Are there paths that camera walks cannot make? A light that cannot be hit, behind a delta.
   bool needs_light_paths() const {
@@ -134,7 +135,6 @@ class Bdpt final : public PassIntegrator {
                       std::max<size_t>(1, light_paths_ / kLightBlock));
     renew_weights();
   }
-  void renew_weights() { mis_ = Mis(settings_.heuristic, counts_); }
 
   void trace_lights(size_t wave) {
     const size_t begin = light_paths_ * wave / waves_, end = light_paths_ * (wave + 1) / waves_;
@@ -143,21 +143,21 @@ class Bdpt final : public PassIntegrator {
     const float margin = context_.film.filter().radius();
     const bool keep = counts_.connection > 0.0f || merges();
     const std::span<CacheBlock> caches = cache_.start(blocks);
-    splats_.resize(std::max(splats_.size(), blocks));
-    const std::span splats = std::span(splats_).first(blocks);
+    start_splats(blocks);
     std::vector<AdaptiveCounts::Moments> moments(meter_ ? blocks : 1);
     context_.pool.parallel_for(blocks, [&](size_t block) {
       context_.cancel.throw_if_cancelled();
       caches[block].clear();
-      splats[block].clear();
       Counters counters;
       const size_t block_end = std::min(end, begin + (block + 1) * kLightBlock);
       for (size_t i = begin + block * kLightBlock; i < block_end; ++i) {
         Sampler sampler(settings_.seed, Stream::Light, 0, first_light_path_ + i);
         trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, counters,
                             [&](const PathVertex& v, Sampler& walk) {
-                              splat(v, walk, margin, splats[block], moments[meter_ ? block : 0],
-                                    counters);
+                              splat(v, static_cast<float>(light_paths_), roulette_, margin, walk,
+                                    block, counters, [&](vec2 raster, Rgb value, const auto& w) {
+                                      gauge(raster, moments[meter_ ? block : 0]).add(value, w);
+                                    });
                               if (keep && worth_caching(v, merging_.used())) {
                                 caches[block].add(v);
                               }
@@ -166,56 +166,12 @@ class Bdpt final : public PassIntegrator {
       counters.light_vertices = caches[block].vertices.size();
       add(counters);
     });
-    context_.film.add_splats(splats, context_.pool);
+    add_splats_to_film();
     collect(moments);
     cache_.finish();
     cache_bytes_ = std::max(cache_bytes_, cache_.bytes());
     if (merges()) {
       merging_.build(cache_, wave_paths_);
-    }
-  }
-
-  // The value of a join whose technique has `s` light vertices and `t` camera vertices.
-  Rgb weighted(const Connection& c, int s, int t) const {
-    if (settings_.only) {
-      return *settings_.only == Technique{s, t} ? c.value : Rgb(0.0f);
-    }
-    return c.value * c.weight.value;
-  }
-
-  // What arrives of `value` over the shadow ray of `c`, which completes a path of `edges` edges;
-  // `samples` and `rays` are counted.
-  Rgb arriving(Rgb value, const Connection& c, int edges, const Roulette& roulette,
-               Sampler& sampler, uint64_t& samples, uint64_t& rays) const {
-    if (is_black(value)) {
-      return value;
-    }
-    ++samples;
-    float scale = c.made_up;
-    const int crossings = settings_.walk.max_crossings - c.crossings;
-    if (crossings < 0 || !roulette.survives(scale * max_component(value), sampler, scale)) {
-      return Rgb(0.0f);
-    }
-    ++rays;
-    const Rgb arrived =
-        value * context_.scene.transmittance(c.from, c.to, c.type, crossings, c.camera);
-    return settings_.clamp(arrived, edges) * scale;
-  }
-
-  void splat(const PathVertex& v, Sampler& sampler, float margin, std::vector<Splat>& out,
-             AdaptiveCounts::Moments& moments, Counters& counters) const {
-    const auto s =
-        connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk);
-    if (!s) {
-      return;
-    }
-    const Connection& c = s->connection;
-    const Rgb value =
-        arriving(weighted(c, v.edges + 1, 1) / static_cast<float>(light_paths_), c, v.edges + 1,
-                 roulette_.at(s->raster), sampler, counters.splats, counters.splat_rays);
-    if (usable(value, counters)) {
-      out.push_back({s->raster, value});
-      gauge(s->raster, moments).add(value, c.weight);
     }
   }
 
@@ -256,22 +212,17 @@ class Bdpt final : public PassIntegrator {
     const Roulette nee_roulette = counts_.connection > 0.0f ? roulette : Roulette();
     const float share = specular_walks_.share(index);
     AdaptiveCounts::Gauge meter = gauge(raster, moments);
-    Rgb sum(0.0f);
-    const auto gather = [&](Rgb value) {
-      if (usable(value, counters)) {
-        sum += value;
-      }
-    };
+    Sample sample{index};
     const float alpha = trace_camera_subpath(
         context_.scene, context_.camera, raster, mis_, settings_.walk, sampler, counters,
         [&](const LightFound& found) {
-          const Rgb value = light_found(found);
-          gather(found.specular ? value * share : value);
+          const Rgb value = gather_light(found, found.specular ? share : 1.0f, sample, counters);
           if (found.edges > 1) {  // straight into the light: the same whatever the counts
             meter.add_single(value, found.weight, found.edges, false);
           }
         },
         [&](const PathVertex& v, Sampler& walk) {
+          see(v, index);
           if (v.edges == 1 && std::ranges::any_of(v.bsdf().lobes(), is_delta)) {
             specular_walks_.saw(index);
           }
@@ -279,18 +230,26 @@ class Bdpt final : public PassIntegrator {
             const VertexCache::Picks picks = counts_.connection > 0.0f
                                                  ? cache_.pick(effort_.connections, walk)
                                                  : VertexCache::Picks();
-            gather(next_event(v, nee_roulette, walk, meter, counters));
-            gather(connect(v, picks, roulette, walk, meter, counters));
+            MisWeight weight;
+            const Rgb direct =
+                gather_next_event(v, nee_roulette, walk, sample, counters, weight);
+            if (!is_black(direct)) {
+              meter.add_single(direct, weight, v.edges + 1, true);
+            }
+            connect(v, picks, roulette, walk, meter, sample, counters);
             if (merges()) {
               context_.cancel.throw_if_cancelled();  // with a large radius there is much to do
-              gather(merging_.gather(v, mis_, settings_.walk, settings_.clamp, counters));
+              merging_.gather(v, mis_, settings_.walk, counters,
+                              [&](const LightVertex& l, const CacheBlock& block, const Merge& m) {
+                                gather_merge(l, block, v, m, sample, counters);
+                              });
             }
           }
         });
     for (int i = 0; i < specular_walks_.count(index); ++i) {
-      gather(walk_specular(index, specular_walks_.first() + i, counters) * share);
+      walk_specular(specular_walks_.first() + i, share, sample, counters);
     }
-    context_.film.add_sample(index, sum, alpha);
+    context_.film.add_sample(index, sample.sum, alpha);
     if (settings_.check_weights && index % kOracleStride == 0) {
       check(raster, index, pass);
     }
@@ -298,74 +257,46 @@ class Bdpt final : public PassIntegrator {
     return meter;
   }
 
-  Rgb light_found(const LightFound& found) const {
-    const Connection c{found.beta * found.hit.radiance, found.weight, {}, {}, RayType::Shadow, 0};
-    return settings_.clamp(weighted(c, 0, found.edges + 1), found.edges);
-  }
-
   // What a walk over deltas alone finds, the `number`th additional one of the pixel.
-  Rgb walk_specular(size_t index, uint64_t number, Counters& counters) const {
-    Sampler sampler = pixel_sampler(Stream::Specular, index, number);
+  void walk_specular(uint64_t number, float share, Sample& sample, Counters& counters) {
+    Sampler sampler = pixel_sampler(Stream::Specular, sample.index, number);
     sampler.start_block(0);
-    const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
-    Rgb sum(0.0f);
+    const vec2 raster = context_.film.sample_position(sample.index, sampler.next_2d());
     Counters walked;
     trace_camera_subpath(
         context_.scene, context_.camera, raster, mis_, specular_, sampler, walked,
         [&](const LightFound& found) {
           if (found.specular) {
-            sum += light_found(found);
+            gather_light(found, share, sample, counters);
           }
         },
         [](const PathVertex&, Sampler&) {});
     ++counters.specular_walks;
     counters.specular_rays += walked.camera_rays;
-    return sum;
   }
 
-  Rgb next_event(const PathVertex& v, const Roulette& roulette, Sampler& sampler,
-                 AdaptiveCounts::Gauge& meter, Counters& counters) const {
-    if (!context_.scene.light_sampler.illuminates()) {
-      return Rgb(0.0f);
-    }
-    const auto nee = connect_to_light(context_.scene, v, mis_, settings_.walk, sampler);
-    if (!nee) {
-      return Rgb(0.0f);
-    }
-    const Connection& c = nee->connection;
-    const Rgb value = arriving(weighted(c, 1, v.edges + 1), c, v.edges + 1, roulette, sampler,
-                               counters.nee_samples, counters.nee_rays);
-    meter.add_single(value, c.weight, v.edges + 1, true);
-    return value;
-  }
-
-  Rgb connect(const PathVertex& v, const VertexCache::Picks& picks, const Roulette& roulette,
-              Sampler& sampler, AdaptiveCounts::Gauge& meter, Counters& counters) const {
-    Rgb sum(0.0f);
+  void connect(const PathVertex& v, const VertexCache::Picks& picks, const Roulette& roulette,
+               Sampler& sampler, AdaptiveCounts::Gauge& meter, Sample& sample, Counters& counters) {
     // The actual size belongs to the estimate, the expected one (in counts_) to the weights.
     const float scale =
         static_cast<float>(cache_.size()) / (effort_.connections * static_cast<float>(wave_paths_));
     for (int n = 0; n < picks.count; ++n) {
-      ++counters.connections;
       const auto& [block, vertex] = picks.entries[n];
-      const LightVertex& l = *vertex;
-      if (l.edges + v.edges + 1 > l.max_edges) {
-        continue;
-      }
-      const BsdfView light_bsdf = block->bsdf(l);
-      __builtin_prefetch(light_bsdf.lobes().data());
-      const auto c = connect_vertices(l, light_bsdf, v, mis_, settings_.walk, scale, roulette,
-                                      sampler, counters);
-      if (c) {
-        uint64_t with_value = 0;
-        const Rgb value =
-            arriving(weighted(*c, l.edges + 1, v.edges + 1), *c, l.edges + v.edges + 1, roulette,
-                     sampler, with_value, counters.connection_rays);
-        meter.add(value, c->weight);
-        sum += value;
+      MisWeight weight;
+      const Rgb value = gather_connection(*vertex, *block, v, scale, roulette, sampler, sample,
+                                          counters, weight);
+      if (!is_black(value)) {
+        meter.add(value, weight);
       }
     }
-    return sum;
+  }
+
+  void gather_merge(const LightVertex& l, const CacheBlock& block, const PathVertex& v,
+                    const Merge& merged, Sample& sample, Counters& counters) {
+    const int edges = l.edges + v.edges;
+    const float w = merged.weight.value;
+    gather(settings_.clamp(merged.value * w, edges), w, {l.edges + 1, v.edges}, sample, counters,
+           [&] { return SortedPath{block.states_of(l), v.states.all(), merged.unread}; });
   }
 
   void check(vec2 raster, size_t index, int pass) {
@@ -381,8 +312,6 @@ class Bdpt final : public PassIntegrator {
   size_t light_paths_ = 0;                   // of a pass
   uint64_t first_light_path_ = 0;            // of the pass, among all
   CachedPath cached_path_;
-  SampleCounts counts_;
-  Mis mis_;
   size_t waves_ = 1, wave_paths_ = 0;
   std::optional<AdaptiveCounts> meter_;  // while the counts are measured
   AdaptiveCounts::Moments moments_;
@@ -391,7 +320,6 @@ class Bdpt final : public PassIntegrator {
   SpecularWalks specular_walks_;
   WalkSettings specular_;
   Counters work_;                           // of the pass before
-  std::vector<std::vector<Splat>> splats_;  // by block of light paths
   size_t cache_bytes_ = 0;                  // the largest so far
   RouletteMap roulette_;
   std::mutex check_mutex_;

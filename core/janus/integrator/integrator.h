@@ -9,6 +9,8 @@
 #include "janus/film/film.h"
 #include "janus/integrator/adaptive_counts.h"
 #include "janus/integrator/clamp.h"
+#include "janus/integrator/layers.h"
+#include "janus/integrator/strategies.h"
 #include "janus/path/counters.h"
 #include "janus/path/mis.h"
 #include "janus/path/subpath.h"
@@ -18,16 +20,15 @@
 
 namespace janus {
 
-// The technique with s vertices on the light side and t on the camera side.
-struct Technique {
-  int s, t;
-  bool operator==(const Technique&) const = default;
-};
-
 struct IntegratorSettings {
   WalkSettings walk;
   Clamp clamp;
   Heuristic heuristic = Heuristic::Balance;
+  // Next event estimation: to the lights, and in light tracing to the camera. Without it, a path
+  // tracer knows only light that its walks hit, and a light tracer only paths that hit the lens.
+  bool next_event = true;
+  std::optional<Strategies> strategies;  // bdpt: these alone, without weights
+  Layers layers;                         // of the film, beside the picture
   float light_paths = 1.0f;  // per pixel
   float connections = 1.0f;  // per camera vertex, expected
   // bdpt: how far apart vertices may be to be merged in the first pass, scene units; 0: not at all.
@@ -38,7 +39,6 @@ struct IntegratorSettings {
   size_t cache_bytes = size_t{256} << 20;  // upper bound for the light-vertex cache
   bool check_weights = false;  // debug: compare weights of sampled paths with the oracle
   bool contribution_roulette = true;
-  std::optional<Technique> only;  // debug: this technique alone and without weights
 };
 
 // What an integrator renders with; everything outlives it.
@@ -78,5 +78,8 @@ std::unique_ptr<Integrator> make_light_tracer(const RenderContext& context,
                                               const IntegratorSettings& settings);
 std::unique_ptr<Integrator> make_bdpt(const RenderContext& context,
                                       const IntegratorSettings& settings);
+// bdpt as it was first described: without a cache, each light path belongs to one pixel.
+std::unique_ptr<Integrator> make_classic_bdpt(const RenderContext& context,
+                                              const IntegratorSettings& settings);
 
 }  // namespace janus

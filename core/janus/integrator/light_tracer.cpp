@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Light tracing with next event estimation to the camera: each vertex of a light path is splatted.
-// A pinhole cannot be hit, so what reaches the camera by way of a smooth mirror or glass is not
-// found. Light that the camera sees directly comes from one camera ray per pixel.
+// Light tracing, with next event estimation to the camera: each vertex of a light path is splatted.
+// It never finds what reaches the camera by way of a smooth mirror or glass, where no direction but
+// one has a value. Without, light paths have to hit the lens by themselves (t=0), as camera paths
+// hit lights in a path tracer without next event estimation: that finds all, if the camera has a
+// lens, and seldom. Light that the camera sees directly comes from one camera ray per pixel.
 #include "janus/integrator/pass.h"
 #include "janus/path/connect.h"
 
@@ -26,25 +28,70 @@ class LightTracer final : public PassIntegrator {
   void trace_lights(int pass) {
     const size_t count = light_path_count(settings_.light_paths);
     const float margin = context_.film.filter().radius();
-    std::vector<std::vector<Splat>> splats((count + kLightBlock - 1) / kLightBlock);
-    context_.pool.parallel_for(splats.size(), [&](size_t block) {
+    const size_t blocks = (count + kLightBlock - 1) / kLightBlock;
+    std::vector<std::vector<Splat>> splats(blocks);
+    std::vector<std::vector<LayerSplat>> layers(blocks);
+    context_.pool.parallel_for(blocks, [&](size_t block) {
       context_.cancel.throw_if_cancelled();
       Counters counters;
+      const auto add_splat = [&](vec2 raster, Rgb value, const SortedPath& path) {
+        splats[block].push_back({raster, value});
+        sort(value, path, [&](size_t layer, Rgb part) {
+          layers[block].push_back({raster, part, static_cast<uint32_t>(layer)});
+        });
+      };
       const size_t end = std::min(count, (block + 1) * kLightBlock);
       for (size_t i = block * kLightBlock; i < end; ++i) {
         Sampler sampler(settings_.seed, Stream::Light, 0, static_cast<uint64_t>(pass) * count + i);
-        trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, counters,
-                            [&](const PathVertex& v, Sampler& walk) {
-                              splat(v, walk, margin, count, splats[block], counters);
-                            });
+        if (settings_.next_event) {
+          trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, counters,
+                              [&](const PathVertex& v, Sampler& walk) {
+                                splat(v, walk, margin, count, counters, add_splat);
+                              });
+        } else {
+          trace_light_subpath(
+              context_.scene, mis_, settings_.walk, sampler, counters,
+              [](const PathVertex&, Sampler&) {},
+              [&](const Ray& ray, float t_begin, float t_end, const PathVertex& v) {
+                hit_lens(ray, t_begin, t_end, v, margin, count, counters, add_splat);
+              });
+        }
       }
       add(counters);
     });
     context_.film.add_splats(splats, context_.pool);
+    if (settings_.layers.any()) {
+      context_.film.add_splats(layers, context_.pool);
+    }
   }
 
-  void splat(const PathVertex& v, Sampler& sampler, float margin, size_t count,
-             std::vector<Splat>& out, Counters& counters) const {
+  // t=0.
+  template <class AddSplat>
+  void hit_lens(const Ray& ray, float t_begin, float t_end, const PathVertex& v, float margin,
+                size_t count, Counters& counters, AddSplat&& add_splat) const {
+    const auto lens = context_.camera.hit_lens(ray, t_begin, t_end, margin);
+    if (!lens) {
+      return;
+    }
+    const Rgb value = settings_.clamp(v.beta * lens->importance / static_cast<float>(count),
+                                      v.edges + 1);
+    if (usable(value, counters)) {
+      add_splat(lens->raster, value, {v.states.all(), camera_state(), {}});
+    }
+  }
+
+  // Adds the parts of `value` to the layers of the expressions that its path matches.
+  template <class Add>
+  void sort(Rgb value, const SortedPath& path, Add&& add) const {
+    if (settings_.walk.expressions) {
+      for_each_match(*settings_.walk.expressions, path,
+                     [&](size_t expression, Rgb share) { add(expression, value * share); });
+    }
+  }
+
+  template <class AddSplat>
+  void splat(const PathVertex& v, Sampler& sampler, float margin, size_t count, Counters& counters,
+             AddSplat&& add_splat) const {
     const auto s =
         connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk);
     const int crossings = settings_.walk.max_crossings - v.crossings;
@@ -56,7 +103,8 @@ class LightTracer final : public PassIntegrator {
     const Rgb value =
         c.value * context_.scene.transmittance(c.from, c.to, c.type, crossings, c.camera);
     if (!is_black(value)) {
-      out.push_back({s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1)});
+      add_splat(s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1),
+                {v.states.all(), camera_state(), c.unread});
     }
   }
 
@@ -64,7 +112,7 @@ class LightTracer final : public PassIntegrator {
     const size_t width = context_.film.rect().width();
     WalkSettings walk = settings_.walk;
     if (walk.clear_glass < 0.0f) {  // else alpha needs what is behind glass
-      walk.max_edges = 1;
+      walk.max_edges = settings_.layers.colors ? 2 : 1;
     }
     for_each_row([&](size_t row, Counters& counters) {
       for (size_t i = row * width; i < (row + 1) * width; ++i) {
@@ -76,10 +124,18 @@ class LightTracer final : public PassIntegrator {
             context_.scene, context_.camera, raster, mis_, walk, sampler, counters,
             [&](const LightFound& found) {
               if (found.edges == 1) {
-                sum += settings_.clamp(found.beta * found.hit.radiance, 1);
+                const Rgb value = settings_.clamp(found.beta * found.hit.radiance, 1);
+                sum += value;
+                if (settings_.walk.expressions && is_finite(value)) {
+                  const WeightedState light{settings_.walk.expressions->from_light(found.light),
+                                            Rgb(1.0f)};
+                  const std::span<Rgb> layers = context_.film.layers_at(i);
+                  sort(value, {{&light, 1}, found.states, {}},
+                       [&](size_t layer, Rgb part) { layers[layer] += part; });
+                }
               }
             },
-            [](const PathVertex&, Sampler&) {});
+            [&](const PathVertex& v, Sampler&) { see(v, i); });
         context_.film.add_sample(i, usable(sum, counters) ? sum : Rgb(0.0f), alpha);
       }
     });

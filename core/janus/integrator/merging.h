@@ -6,7 +6,6 @@
 
 #include <numbers>
 
-#include "janus/integrator/clamp.h"
 #include "janus/integrator/vertex_grid.h"
 
 namespace janus {
@@ -37,16 +36,16 @@ class Merging {
     scale_ = 1.0f / (area() * static_cast<float>(light_paths));
   }
 
-  Rgb gather(const PathVertex& v, const Mis& mis, const PathRules& rules, const Clamp& clamp,
-             Counters& counters) const {
-    Rgb sum(0.0f);
-    grid_.for_each_near(v.hit.p, [&](const LightVertex& l) {
+  // Calls on_merge(light vertex, its block, Merge) for all that `v` is merged with.
+  template <class OnMerge>
+  void gather(const PathVertex& v, const Mis& mis, const PathRules& rules, Counters& counters,
+              OnMerge&& on_merge) const {
+    grid_.for_each_near(v.hit.p, [&](const LightVertex& l, const CacheBlock& block) {
       if (const auto merged = merge_vertices(l, v, mis, rules, scale_)) {
         ++counters.merges;
-        sum += clamp(merged->value * merged->weight.value, l.edges + v.edges);
+        on_merge(l, block, *merged);
       }
     });
-    return sum;
   }
 
  private:

@@ -15,7 +15,11 @@ inline constexpr size_t kLightBlock = 1024;
 class PassIntegrator : public Integrator {
  public:
   PassIntegrator(const RenderContext& context, const IntegratorSettings& settings)
-      : context_(context), settings_(settings) {}
+      : context_(context), settings_(settings) {
+    if (settings.walk.expressions) {
+      camera_state_ = PathStates(settings.walk.expressions->from_camera());
+    }
+  }
 
   Counters counters() const override { return counters_; }
 
@@ -30,6 +34,16 @@ class PassIntegrator : public Integrator {
     return context_.scene.light_sampler.emits()
                ? static_cast<size_t>(per_pixel * context_.film.rect().pixels() + 0.5)
                : 0;
+  }
+
+  // The camera's side of paths that end at nothing but the camera.
+  std::span<const WeightedState> camera_state() const { return camera_state_.all(); }
+
+  // Keeps the colours of what the camera sees in pixel `index`, if `v` is that.
+  void see(const PathVertex& v, size_t index) {
+    if (settings_.layers.colors && v.edges == 1) {
+      settings_.layers.add_color(v.bsdf(), v.back, v.beta, context_.film.layers_at(index));
+    }
   }
 
   // The sampler of a camera sample. Keyed by the pixel of the full frame: a crop shows the same
@@ -67,6 +81,7 @@ class PassIntegrator : public Integrator {
   IntegratorSettings settings_;
 
  private:
+  PathStates camera_state_;
   std::mutex mutex_;
   Counters counters_;
 };

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "janus/integrator/pass.h"
+#include "janus/path/match.h"
 
 namespace janus {
 
@@ -22,7 +23,8 @@ class PathTracer final : public PassIntegrator {
         sampler.start_block(0);
         const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
         float alpha = 1.0f;
-        const Rgb value = radiance(raster, sampler, counters, alpha);
+        const Rgb value =
+            radiance(raster, sampler, counters, alpha, context_.film.layers_at(i));
         context_.film.add_sample(i, usable(value, counters) ? value : Rgb(0.0f), alpha);
       }
     });
@@ -57,7 +59,32 @@ class PathTracer final : public PassIntegrator {
     bool clear = true;
     // Where it looks for lights with the rules of shadow rays: what lets them through so far.
     std::optional<Rgb> through = std::nullopt;
+    // Of light path expressions: the last vertex, and what was read before and with it.
+    UnreadVertex vertex{};
+    PathStates before{}, after{};
+    std::span<Rgb> layers = {};  // of the pixel
   };
+
+  // Adds light of source `index` to the layers of those expressions that its path matches. `z_1`:
+  // where it was scattered last, after what `before` has read; null: nowhere.
+  void sort(const Walk& walk, size_t index, Rgb value, const UnreadVertex* z_1,
+            const PathStates& before) const {
+    const PathAutomaton* expressions = settings_.walk.expressions;
+    if (!expressions || !is_finite(value)) {
+      return;
+    }
+    const WeightedState light{expressions->from_light(index), Rgb(1.0f)};
+    SortedPath path{{&light, 1}, before.all(), {}};
+    if (z_1) {
+      path.unread = UnreadVertices(*z_1);
+      if (settings_.walk.ray_types) {
+        ScatterShares& shares = path.unread.vertices[0].shares;
+        shares = shares.lit(context_.scene.lights[index]->visibility);
+      }
+    }
+    for_each_match(*expressions, path,
+                   [&](size_t layer, Rgb share) { walk.layers[layer] += value * share; });
+  }
 
   // Light of source `index` found on the way.
   Rgb found(const Walk& walk, size_t index, const LightHit& hit) const {
@@ -81,11 +108,15 @@ class PathTracer final : public PassIntegrator {
     }
     const LightSampler& lights = context_.scene.light_sampler;
     const float pdf_nee =
-        walk.delta
+        walk.delta || !settings_.next_event
             ? 0.0f
             : lights.pmf_illumination(walk.previous, index, hit.primitive) * hit.pdf_illumination;
-    const float w = walk.delta ? 1.0f : weight(walk.pdf_solid, pdf_nee);
-    return settings_.clamp(beta * lit * hit.radiance * w, walk.edges);
+    const float w = pdf_nee > 0.0f ? weight(walk.pdf_solid, pdf_nee) : 1.0f;
+    const Rgb value = settings_.clamp(beta * lit * hit.radiance * w, walk.edges);
+    const bool straight = walk.edges == 1;
+    sort(walk, index, value, straight ? nullptr : &walk.vertex,
+         straight ? walk.after : walk.before);
+    return value;
   }
 
   // Not in what the camera sees clearly?
@@ -189,11 +220,16 @@ class PathTracer final : public PassIntegrator {
     return sum;
   }
 
-  Rgb radiance(vec2 raster, Sampler& sampler, Counters& counters, float& alpha) const {
+  Rgb radiance(vec2 raster, Sampler& sampler, Counters& counters, float& alpha,
+               std::span<Rgb> layers) const {
     const Scene& scene = context_.scene;
     ++counters.camera_paths;
     const Ray start = context_.camera.sample_ray(raster, sampler.next_2d()).ray;
     Walk walk{start, {start.origin, start.direction, true}, start.origin};
+    walk.layers = layers;
+    if (settings_.walk.expressions) {
+      walk.after = PathStates(settings_.walk.expressions->from_camera());
+    }
     Rgb sum(0.0f);
     for (;;) {
       ++counters.camera_rays;
@@ -246,10 +282,12 @@ class PathTracer final : public PassIntegrator {
         return sum;
       }
       const BsdfView bsdf = shading.bsdf.view(hit->ng, hit->ns);
+      if (settings_.layers.colors && walk.edges == 1) {
+        settings_.layers.add_color(bsdf, wo, walk.beta, layers);
+      }
       sampler.start_block(walk.edges);
-      if (bsdf.connectible() && scene.light_sampler.illuminates()) {
-        sum += settings_.clamp(walk.beta * direct(*hit, bsdf, wo, walk, sampler, counters),
-                               walk.edges + 1);
+      if (settings_.next_event && bsdf.connectible() && scene.light_sampler.illuminates()) {
+        sum += direct(*hit, bsdf, wo, walk, sampler, counters);
       }
 
       const float u_lobe = sampler.next_1d();
@@ -291,8 +329,29 @@ class PathTracer final : public PassIntegrator {
                   .diffuse = diffuse,
                   .rest = Rgb(1.0f) - diffuse,
                   .transmitted = sample->transmitted,
-                  .clear = clear};
+                  .clear = clear,
+                  .before = walk.after,
+                  .layers = layers};
+      if (settings_.walk.expressions) {
+        walk.vertex = {hit->instance, ScatterShares::sampled(*sample)};
+        read_event(walk, sampler);
+      }
     }
+  }
+
+  // Takes the expressions past the last vertex. Numbers are drawn apart, as in subpath.h.
+  void read_event(Walk& walk, Sampler sampler) const {
+    sampler.start_block((1U << 20) + static_cast<uint32_t>(walk.edges));
+    UnreadVertex vertex = walk.vertex;
+    if (settings_.walk.ray_types) {
+      vertex.shares = vertex.shares.labelled(walk.type);
+    }
+    walk.after = walk.before.after(
+        vertex,
+        [&](PathAutomaton::State state, int event, uint32_t instance) {
+          return settings_.walk.expressions->reverse(state, event, instance);
+        },
+        sampler);
   }
 
   // By channel.
@@ -350,14 +409,19 @@ class PathTracer final : public PassIntegrator {
     const float pdf_nee = choice.pmf * sample->pdf_solid;
     const float pdf_hit = light.hittable() ? e.pdf_radiance : 0.0f;
     Rgb f = e.f;
+    const bool transmitted = dot(wo, hit.ng) * dot(sample->wi, hit.ng) < 0.0f;
     if (settings_.walk.ray_types) {
-      const bool transmitted = dot(wo, hit.ng) * dot(sample->wi, hit.ng) < 0.0f;
       f = seen(light, e.diffuse, e.f - e.diffuse, transmitted);
     }
     if (walk.clear && left_out(light)) {
       f *= 1.0f - clear_part(bsdf, wo, sample->wi);
     }
-    return f * visible * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee);
+    const Rgb value = settings_.clamp(
+        walk.beta * f * visible * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee),
+        walk.edges + 1);
+    const UnreadVertex z_1{hit.instance, ScatterShares::joined(e, transmitted)};
+    sort(walk, choice.light, value, &z_1, walk.after);
+    return value;
   }
 };
 

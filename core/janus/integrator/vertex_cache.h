@@ -17,8 +17,10 @@ struct CacheBlock {
   std::vector<LightVertex> vertices;
   std::vector<Lobe> lobes;
   std::vector<Reshading> reshadings;  // of those that depend on the view
+  std::vector<WeightedState> states;  // of the automaton of light path expressions
 
   void clear() {
+    states.clear();
     vertices.clear();
     lobes.clear();
     reshadings.clear();
@@ -30,6 +32,10 @@ struct CacheBlock {
       out.reshading = static_cast<int32_t>(reshadings.size());
       reshadings.push_back(v.reshading);
     }
+    const std::span<const WeightedState> read = v.states.all();
+    out.first_state = static_cast<uint32_t>(states.size());
+    out.state_count = static_cast<uint8_t>(read.size());
+    states.insert(states.end(), read.begin(), read.end());
     const BsdfView bsdf = v.bsdf();
     for (const Lobe& lobe : bsdf.lobes()) {
       if (!is_delta(lobe)) {  // view-free and connectible: the rest is never asked for
@@ -43,8 +49,11 @@ struct CacheBlock {
     return {std::span(lobes).subspan(v.first_lobe, v.lobe_count), v.ng, v.ns,
             v.reshading < 0 ? nullptr : &reshadings[static_cast<size_t>(v.reshading)]};
   }
+  std::span<const WeightedState> states_of(const LightVertex& v) const {
+    return std::span(states).subspan(v.first_state, v.state_count);
+  }
   size_t bytes() const {
-    return vertices.size() * sizeof(LightVertex) + lobes.size() * sizeof(Lobe) +
+    return states.size() * sizeof(WeightedState) + vertices.size() * sizeof(LightVertex) + lobes.size() * sizeof(Lobe) +
            reshadings.size() * sizeof(Reshading);
   }
 };
@@ -80,15 +89,16 @@ class VertexCache {
     return sum;
   }
 
-  // In the order of the light paths.
+  // Calls visit(vertex, number of its block), in the order of the light paths.
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (size_t i = 0; i < count_; ++i) {
       for (const LightVertex& v : blocks_[i].vertices) {
-        visit(v);
+        visit(v, static_cast<uint32_t>(i));
       }
     }
   }
+  const CacheBlock& block(uint32_t number) const { return blocks_[number]; }
 
   struct Entry {
     const CacheBlock* block;

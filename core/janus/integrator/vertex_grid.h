@@ -13,6 +13,7 @@ namespace janus {
 class VertexGrid {
   struct Item {
     vec3 p;
+    uint32_t block;
     const LightVertex* vertex;
   };
 
@@ -24,6 +25,7 @@ class VertexGrid {
   // are numbers of 32 bits.
   void build(const VertexCache& cache, float radius) {
     radius_ = radius;
+    cache_ = &cache;
     size_t buckets = 1;
     while (buckets < cache.size()) {
       buckets *= 2;
@@ -31,17 +33,18 @@ class VertexGrid {
     mask_ = buckets - 1;
     // Where each bucket ends; filling it from there leaves where it begins.
     first_.assign(buckets + 1, 0);
-    for_each_bounced(cache, [&](const LightVertex& v) { ++first_[bucket(cell(v.p))]; });
+    for_each_bounced(cache, [&](const LightVertex& v, uint32_t) { ++first_[bucket(cell(v.p))]; });
     for (size_t i = 1; i <= buckets; ++i) {
       first_[i] += first_[i - 1];
     }
     items_.resize(first_.back());
-    for_each_bounced(
-        cache, [&](const LightVertex& v) { items_[--first_[bucket(cell(v.p))]] = {v.p, &v}; });
+    for_each_bounced(cache, [&](const LightVertex& v, uint32_t block) {
+      items_[--first_[bucket(cell(v.p))]] = {v.p, block, &v};
+    });
   }
 
-  // Calls found(const LightVertex&) for those within the radius of `p`, in an order that does not
-  // depend on the threads.
+  // Calls found(const LightVertex&, const CacheBlock&) for those within the radius of `p`, in an
+  // order that does not depend on the threads.
   template <class Found>
   void for_each_near(vec3 p, Found&& found) const {
     // A cell is two radii wide: what is near lies in two cells along each axis.
@@ -54,7 +57,7 @@ class VertexGrid {
       }
       for (size_t i = first_[seen[n]]; i < first_[seen[n] + 1]; ++i) {
         if (length2(items_[i].p - p) <= radius_ * radius_) {
-          found(*items_[i].vertex);
+          found(*items_[i].vertex, cache_->block(items_[i].block));
         }
       }
     }
@@ -63,9 +66,9 @@ class VertexGrid {
  private:
   template <class Visit>
   static void for_each_bounced(const VertexCache& cache, Visit&& visit) {
-    cache.for_each([&](const LightVertex& v) {
+    cache.for_each([&](const LightVertex& v, uint32_t block) {
       if (v.edges > 1) {
-        visit(v);
+        visit(v, block);
       }
     });
   }
@@ -77,6 +80,7 @@ class VertexGrid {
     return hash_combine(xy, static_cast<uint32_t>(c.z)) & mask_;
   }
 
+  const VertexCache* cache_ = nullptr;
   float radius_ = 1.0f;
   size_t mask_ = 0;
   std::vector<size_t> first_{0, 0};  // by bucket

@@ -91,7 +91,7 @@ class Light {
   Light(const Light&) = delete;
   Light& operator=(const Light&) = delete;
 
-  std::string name;
+  std::string name, light_group;
   RayMask visibility = kAllRays;         // the camera, and the labels of z_1, that see it
   RayType shadow_ray = RayType::Shadow;  // or Unblocked
   // Edges of the paths on which next event estimation may find it, whichever technique does.

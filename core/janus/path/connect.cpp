@@ -14,12 +14,15 @@ LightVertex::LightVertex(const PathVertex& v)
       beta(v.beta),
       mis(v.mis),
       bound(max_component(v.beta) * v.bsdf().peak()),
+      instance(v.hit.instance),
+      first_state(0),
       first_lobe(0),
       reshading(-1),
       edges(static_cast<uint16_t>(v.edges)),
       crossings(static_cast<uint16_t>(v.crossings)),
       max_edges(static_cast<uint16_t>(v.max_edges)),
       bounces(v.bounces),
+      state_count(0),
       lobe_count(0),
       transmits(v.bsdf().transmits()),
       hidden(v.hidden),
@@ -70,6 +73,13 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   joined->connection.type = light.shadow_ray;
   joined->connection.crossings = v.crossings;
   joined->end = {joint, pdf_nee, light.hittable(), wi};
+  if (rules.expressions) {
+    const bool transmitted = dot(v.back, v.hit.ng) * dot(wi, v.hit.ng) < 0.0f;
+    ScatterShares shares = ScatterShares::joined(e, transmitted);
+    shares = rules.ray_types ? shares.lit(light.visibility) : shares;
+    joined->connection.unread = UnreadVertices({v.hit.instance, shares});
+  }
+  joined->light = choice.light;
   return joined;
 }
 
@@ -110,10 +120,11 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   }
   RayType type = RayType::Diffuse;
   Rgb lit(1.0f);
+  const bool transmitted_light = cos_light * dot(l.wi, l.ng) < 0.0f;
+  const bool transmitted_camera = cos_camera * dot(wo, c.hit.ng) < 0.0f;
   if (rules.ray_types || rules.caps_bind(l.edges + c.edges + 1)) {
     const BounceCounts bounces = l.bounces + c.bounces;
-    const bool transmitted_light = cos_light * dot(l.wi, l.ng) < 0.0f;
-    auto camera_label = LabelShares::joined(at_camera, cos_camera * dot(wo, c.hit.ng) < 0.0f);
+    auto camera_label = LabelShares::joined(at_camera, transmitted_camera);
     auto light_label = LabelShares::joined(at_light, transmitted_light);
     if (rules.ray_types) {
       camera_label = camera_label.within(l.seen_by);
@@ -156,6 +167,15 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   joined->type = type;
   joined->crossings = c.crossings + l.crossings;
   joined->made_up = made_up;
+  if (rules.expressions) {
+    UnreadVertex first{l.instance, ScatterShares::joined(at_light, transmitted_light)};
+    UnreadVertex second{c.hit.instance, ScatterShares::joined(at_camera, transmitted_camera)};
+    if (rules.ray_types) {
+      second.shares = second.shares.labelled(type);
+      first.shares = l.edges == 1 ? first.shares.lit(l.labels) : first.shares.within(l.labels);
+    }
+    joined->unread = UnreadVertices(first, second);
+  }
   return joined;
 }
 
@@ -174,8 +194,9 @@ std::optional<Merge> merge_vertices(const LightVertex& l, const PathVertex& c, c
   if (is_black(e.f)) {
     return merged;
   }
+  const bool transmitted = cos_light * dot(c.back, c.hit.ng) < 0.0f;
   if (rules.ray_types || rules.caps_bind(edges)) {
-    auto label = LabelShares::joined(e, cos_light * dot(c.back, c.hit.ng) < 0.0f);
+    auto label = LabelShares::joined(e, transmitted);
     if (rules.ray_types) {
       label = label.within(l.labels);
     }
@@ -188,6 +209,11 @@ std::optional<Merge> merge_vertices(const LightVertex& l, const PathVertex& c, c
   merged.emplace();
   merged->value = c.beta * e.f * l.beta * (scale / std::abs(cos_light));
   merged->weight = mis.weight_merge(l.mis, e.pdf_radiance, c.mis, e.pdf_importance);
+  if (rules.expressions) {
+    const auto shares = ScatterShares::joined(e, transmitted);
+    merged->unread =
+        UnreadVertices({c.hit.instance, rules.ray_types ? shares.within(l.labels) : shares});
+  }
   return merged;
 }
 
@@ -233,6 +259,13 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
   joined.crossings = v.crossings;
   splat->raster = to_camera->raster;
   splat->end = {v.hit.p + std::sqrt(to_camera->distance2) * wo, to_camera->density};
+  if (rules.expressions) {
+    auto shares = ScatterShares::joined(e, transmitted);
+    if (rules.ray_types) {
+      shares = v.edges == 1 ? shares.lit(v.source) : shares.within(v.possible_labels(false));
+    }
+    joined.unread = UnreadVertices({v.hit.instance, shares});
+  }
   return splat;
 }
 

@@ -23,6 +23,7 @@ struct Connection {
   // act on it.
   float made_up = 1.0f;
   Scene::End camera = Scene::End::A;  // which end of the ray is on the side of the camera
+  UnreadVertices unread = UnreadVertices();  // if PathRules::expressions
 };
 
 // A light vertex as the cache keeps it.
@@ -33,10 +34,12 @@ struct LightVertex {
   Rgb beta;
   MisState mis;
   float bound;  // max |beta| times the peak of the BSDF
+  uint32_t instance, first_state;
   uint32_t first_lobe;
   int32_t reshading;  // in the cache, if the lobes depend on the view; -1: they do not
   uint16_t edges, crossings, max_edges;
   BounceCounts bounces;
+  uint8_t state_count;
   uint8_t lobe_count : 4;
   uint8_t transmits : 1;
   uint8_t hidden : 1, held : 1;  // PathVertex::hidden, held
@@ -44,12 +47,13 @@ struct LightVertex {
   uint8_t labels : 3, seen_by : 3;
 
   LightVertex() = default;
-  // Of a subpath's vertex; the lobes are the cache's business.
+  // Of a subpath's vertex; lobes and states are the cache's business.
   explicit LightVertex(const PathVertex& v);
 };
 
 struct LightConnection {
   Connection connection;
+  size_t light;
   LightEnd end;
 };
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& camera_vertex,
@@ -70,6 +74,7 @@ std::optional<Connection> connect_vertices(const LightVertex& light_vertex, Bsdf
 struct Merge {
   Rgb value;
   MisWeight weight;
+  UnreadVertices unread;  // if PathRules::expressions
 };
 std::optional<Merge> merge_vertices(const LightVertex& light_vertex,
                                     const PathVertex& camera_vertex, const Mis& mis,

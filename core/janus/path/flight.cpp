@@ -46,11 +46,19 @@ Place look_at(const Scene& scene, vec3 direction, RayType type, PathVertex& v) {
 }  // namespace
 
 bool fly_past(const Scene& scene, const Ray& ray, RayType type, int max_crossings, Sampler& sampler,
-              uint64_t& rays, PathVertex& v) {
+              uint64_t& rays, PathVertex& v,
+              const std::function<void(float, float)>& on_segment) {
   Ray segment = ray;
+  float t_begin = 0.0f;
   for (;;) {
     ++rays;
-    if (!scene.accel->intersect_any(segment, v.hit)) {
+    const bool surface = scene.accel->intersect_any(segment, v.hit);
+    if (on_segment) {
+      const float t_end = surface ? glm::length(v.hit.p - ray.origin) : ray.t_max;
+      on_segment(t_begin, t_end);
+      t_begin = t_end;
+    }
+    if (!surface) {
       return false;
     }
     const Instance& met = scene.instances[v.hit.instance];

@@ -91,9 +91,9 @@ bool fly(const Scene& scene, const Ray& ray, RayType type, TransportMode mode, i
 
 // fly() from the side of the light. The segment is of `type`, but whether its end is there depends
 // on the segment after it: surfaces that rays of `type` do not meet are passed by chance too.
-// Writes `v.visibility`.
+// Writes `v.visibility`. `on_segment`, if any, as in fly().
 bool fly_past(const Scene& scene, const Ray& ray, RayType type, int max_crossings, Sampler& sampler,
-              uint64_t& rays, PathVertex& v);
+              uint64_t& rays, PathVertex& v, const std::function<void(float, float)>& on_segment);
 
 // Types of one and the same effect for a segment of a light subpath, drawn from `possible` ones
 // (not empty) before its end is known.

@@ -84,6 +84,69 @@ inline Rgb lit_share(Rgb value, Rgb diffuse, bool transmitted, RayMask mask) {
   return share;
 }
 
+// --- What light path expressions tell apart (path/expression.h) ---
+
+// Kinds of scattering; a specular event is that of a delta.
+enum class Scattering : uint8_t { Diffuse, Glossy, Specular };
+
+// A kind with its side, and a set of these.
+using ScatterMask = uint8_t;
+inline constexpr int kScatterEvents = 6;
+
+constexpr int scatter_event(Scattering kind, bool transmitted) {
+  return 2 * static_cast<int>(kind) + (transmitted ? 1 : 0);
+}
+// Both sides of a kind.
+constexpr ScatterMask scatter_bit(Scattering kind) {
+  return static_cast<ScatterMask>(0b11U << (2 * static_cast<unsigned>(kind)));
+}
+inline constexpr ScatterMask kAllScattering = 0b111111;
+inline constexpr ScatterMask kReflections = 0b010101, kTransmissions = 0b101010;
+
+// An event at a vertex once both directions are known: a part of it is diffuse, the rest glossy or
+// specular.
+struct ScatterShares {
+  Rgb diffuse;  // by channel
+  bool transmitted = false, delta = false;
+
+  static ScatterShares joined(const BsdfEval& e, bool transmitted) {
+    return {part(e.diffuse, e.f), transmitted, false};
+  }
+  static ScatterShares sampled(const BsdfSample& sample) {
+    return {part(sample.diffuse, sample.weight), sample.transmitted, sample.delta};
+  }
+
+  // The part where a light shines that is visible to `mask` alone; see lit_share().
+  ScatterShares lit(RayMask mask) const {
+    const bool rest = contains(mask, transmitted ? RayType::Transmission : RayType::Glossy);
+    if (contains(mask, RayType::Diffuse) == rest) {
+      return *this;
+    }
+    return {Rgb(rest ? 0.0f : 1.0f), transmitted, delta};
+  }
+  // The part with one of these labels.
+  ScatterShares within(RayMask labels) const { return transmitted ? *this : lit(labels); }
+  // That with a label which has been drawn.
+  ScatterShares labelled(RayType label) const {
+    const Rgb all(label == RayType::Diffuse ? 1.0f : 0.0f);
+    return transmitted ? *this : ScatterShares{all, false, delta};
+  }
+
+  int diffuse_event() const { return scatter_event(Scattering::Diffuse, transmitted); }
+  int other_event() const {
+    return scatter_event(delta ? Scattering::Specular : Scattering::Glossy, transmitted);
+  }
+
+ private:
+  static Rgb part(Rgb diffuse, Rgb whole) {
+    Rgb share(0.0f);
+    for (int c = 0; c < 3; ++c) {
+      share[c] = diffuse[c] > 0.0f ? std::min(diffuse[c] / whole[c], 1.0f) : 0.0f;
+    }
+    return share;
+  }
+};
+
 // Bounces of a part of a path by label.
 struct BounceCounts {
   uint16_t of[3] = {};

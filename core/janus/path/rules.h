@@ -49,6 +49,8 @@ class BounceCaps {
   int least_;
 };
 
+class PathAutomaton;
+
 struct PathRules {
   int max_edges = 14;     // edges of a whole path; Cycles' max_bounces + 2
   int max_crossings = 8;  // of transparent surfaces on a whole path
@@ -58,6 +60,8 @@ struct PathRules {
   bool holdouts = false, film_transparent = false;
   float clear_glass = -1.0f;
   bool ray_types = false;  // Scene::has_ray_types: what is met depends on the labels
+  // The light path expressions that paths are sorted by; null: none.
+  const PathAutomaton* expressions = nullptr;
 
   // Can a limit by label forbid a path of so many edges?
   bool caps_bind(int edges) const { return edges - 2 > caps.least(); }

@@ -25,6 +25,9 @@ struct LightFound {
   MisWeight weight;    // 1 for edges == 1
   LightEnd end;        // for edges > 1
   Departure previous;  // how z_1 was left
+  // If PathRules::expressions: the camera's side of the path, and z_1.
+  std::span<const WeightedState> states;
+  UnreadVertices unread;
 };
 
 // State of a walk between two vertices.
@@ -39,11 +42,38 @@ struct WalkStep {
   Rgb value = Rgb(1.0f), diffuse = Rgb(0.0f);
   bool transmitted = false;
   bool clear = false;  // the vertex kept a clear view, or would hide what is hidden
+  // If PathRules::expressions: the vertex, and the states before and after it.
+  UnreadVertex vertex{};
+  PathStates before{}, after{};
 
   Rgb lit_share(RayMask visibility) const {
     return janus::lit_share(value, diffuse, transmitted, visibility);
   }
 };
+
+// Takes the expressions past `v`. Numbers are drawn apart: the picture does not depend on who looks
+// at it.
+inline void read_event(const PathVertex& v, const BsdfSample& sample, TransportMode mode,
+                       const WalkSettings& settings, Sampler sampler, WalkStep& step) {
+  constexpr uint32_t kBlock = 1 << 20;  // far beyond those of vertices
+  sampler.start_block(kBlock + static_cast<uint32_t>(v.edges));
+  const bool importance = mode == TransportMode::Importance;
+  UnreadVertex vertex{v.hit.instance, ScatterShares::sampled(sample)};
+  step.vertex = vertex;
+  step.before = v.states;
+  if (settings.ray_types) {  // what comes next was met by this label
+    vertex.shares = importance && v.edges == 1 ? vertex.shares.lit(v.source)
+                                               : vertex.shares.labelled(step.label);
+  }
+  const PathAutomaton& automaton = *settings.expressions;
+  step.after = v.states.after(
+      vertex,
+      [&](PathAutomaton::State state, int event, uint32_t instance) {
+        return importance ? automaton.forward(state, event, instance)
+                          : automaton.reverse(state, event, instance);
+      },
+      sampler);
+}
 
 // Scatters at `v`, applies roulette and writes `step`. `start`: throughput 1 of this walk;
 // `eta_scale`: product of the refractions so far. False when the walk ends.
@@ -75,6 +105,9 @@ inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, Trans
   step.clear = settings.clear_glass >= 0.0f &&
                (mode == TransportMode::Radiance ? v.clear : v.hidden) &&
                leaves_clear(settings, v, *sample, mode, sampler);
+  if (settings.expressions) {
+    read_event(v, *sample, mode, settings, sampler, step);
+  }
   eta_scale *= sample->eta_scale;
   const float q = settings.roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
   if (is_black(beta) || !is_finite(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
@@ -91,13 +124,21 @@ inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, Trans
   return true;
 }
 
-// The next segment of a light subpath, of one of the `possible` types, to `v`.
-inline bool fly_from_light(const Scene& scene, const Ray& ray, RayMask possible,
-                           const WalkSettings& settings, Sampler& sampler, uint64_t& rays,
-                           PathVertex& v) {
+// For walks of which nobody watches the segments.
+struct NoSegments {
+  void operator()(const Ray&, float, float, const PathVertex&) const {}
+};
+
+// The next segment of a light subpath, of one of the `possible` types, to `v`. Calls
+// on_segment(ray, t_begin, t_end, v) for each piece of it that a camera ray could see.
+template <class OnSegment = NoSegments>
+bool fly_from_light(const Scene& scene, const Ray& ray, RayMask possible,
+                    const WalkSettings& settings, Sampler& sampler, uint64_t& rays, PathVertex& v,
+                    OnSegment&& on_segment = {}) {
   if (!settings.ray_types) {
     return fly(scene, ray, RayType::Shadow, TransportMode::Importance, settings.max_crossings,
-               sampler, rays, v, [](float, float, bool) {});
+               sampler, rays, v,
+               [&](float begin, float end, bool) { on_segment(ray, begin, end, v); });
   }
   if (possible == 0) {
     return false;
@@ -105,15 +146,27 @@ inline bool fly_from_light(const Scene& scene, const Ray& ray, RayMask possible,
   const DrawnTypes drawn = draw_types(*scene.accel, possible, sampler);
   v.segment = drawn.types;
   v.beta /= drawn.pmf;
-  return fly_past(scene, ray, first_type(drawn.types), settings.max_crossings, sampler, rays, v);
+  std::function<void(float, float)> on_piece;
+  if constexpr (!std::is_same_v<std::remove_cvref_t<OnSegment>, NoSegments>) {
+    if (contains(drawn.types, RayType::Camera)) {
+      on_piece = [&](float begin, float end) { on_segment(ray, begin, end, v); };
+    }
+  }
+  return fly_past(scene, ray, first_type(drawn.types), settings.max_crossings, sampler, rays, v,
+                  on_piece);
 }
 
 inline bool usable_density(float pdf) { return pdf > 0.0f && std::isfinite(pdf); }
 
-// Traces one light subpath and calls on_vertex(const PathVertex&, Sampler&) at z_1, z_2, ...
-template <class OnVertex>
+// Traces one light subpath and calls on_vertex(const PathVertex&, Sampler&) at z_1, z_2, ... and
+// on_segment(const Ray&, float t_begin, float t_end, const PathVertex&) for pieces of its flights
+// behind z_1 which could be the last of a path, to the camera: with the vertex `v` as it was left,
+// v.beta being the flux on the piece.
+template <class OnVertex, class OnSegment = NoSegments>
 void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings& settings,
-                         Sampler& sampler, Counters& counters, OnVertex&& on_vertex) {
+                         Sampler& sampler, Counters& counters, OnVertex&& on_vertex,
+                         OnSegment&& on_segment = {}) {
+  constexpr bool kWatched = !std::is_same_v<std::remove_cvref_t<OnSegment>, NoSegments>;
   ++counters.light_paths;
   sampler.start_block(0);
   float u_light = sampler.next_1d();
@@ -132,6 +185,9 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   const float start = max_component(v.beta);
   v.source = light.visibility;
   v.hidden = hidden_in_clear_view(light, settings);
+  if (settings.expressions) {
+    v.states = PathStates(settings.expressions->from_light(index));
+  }
   v.max_edges = std::min(settings.max_edges, light.max_edges);
   // What a mirror shows of the light is no shadow ray.
   constexpr RayMask kDeltas = ray_bit(RayType::Glossy) | ray_bit(RayType::Transmission);
@@ -165,7 +221,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   for (;;) {
     v.held = settings.holdouts && holds_out(scene, v);
     on_vertex(v, sampler);
-    if (v.edges + 2 > (v.edges == 1 ? settings.max_edges : v.max_edges)) {
+    if (v.edges + (kWatched ? 1 : 2) > (v.edges == 1 ? settings.max_edges : v.max_edges)) {
       return;
     }
     sampler.start_block(v.edges);
@@ -184,9 +240,22 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
       }
     }
     v.beta = step.beta;
+    v.states = step.after;
     const vec3 previous = v.hit.p;
-    if (!fly_from_light(scene, step.ray, v.visibility & kLabels, settings, sampler,
-                        counters.light_rays, v)) {
+    const auto watch = [&](const Ray& ray, float begin, float end, const PathVertex& on_way) {
+      if (!v.hidden && v.edges + 1 <= v.max_edges) {
+        on_segment(ray, begin, end, on_way);
+      }
+    };
+    bool arrived;
+    if constexpr (kWatched) {
+      arrived = fly_from_light(scene, step.ray, v.visibility & (kLabels | ray_bit(RayType::Camera)),
+                               settings, sampler, counters.light_rays, v, watch);
+    } else {
+      arrived = fly_from_light(scene, step.ray, v.visibility & kLabels, settings, sampler,
+                               counters.light_rays, v);
+    }
+    if (!arrived) {
       return;
     }
     const float d2 = length2(v.hit.p - previous);
@@ -215,6 +284,9 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
   v.beta = Rgb(1.0f);
   v.crossings = 0;
   v.camera_end = {start.lens, start.density};
+  if (settings.expressions) {
+    v.states = PathStates(settings.expressions->from_camera());
+  }
   WalkStep step{start.ray, {false, start.density.value, 0.0f}, {}, v.beta, 0.0f};
   Receiver previous{start.lens, start.ray.direction, true};
   float eta_scale = 1.0f, alpha = 1.0f;
@@ -226,6 +298,13 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     // Is the light ahead seen otherwise than the next vertex?
     const bool shadow_ray = settings.ray_types && v.edges > 1 && !step.left.delta &&
                             (scene.has_unblocked || !scene.accel->alike(type, RayType::Shadow));
+    const auto unread = [&](const Light& light) {
+      UnreadVertex z_1 = step.vertex;
+      if (settings.ray_types) {
+        z_1.shares = z_1.shares.lit(light.visibility);
+      }
+      return UnreadVertices(z_1);
+    };
     const auto found = [&](size_t index, const LightHit& hit, Rgb beta) {
       const Light& light = *scene.lights[index];
       if (v.clear && hidden_in_clear_view(light, settings)) {
@@ -233,7 +312,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
       }
       if (v.edges == 1) {
         if (contains(light.visibility, RayType::Camera)) {
-          on_light(LightFound{index, hit, beta, 1, false, {}, {}, {}});
+          on_light(LightFound{index, hit, beta, 1, false, {}, {}, {}, v.states.all(), {}});
         }
         return;
       }
@@ -255,7 +334,9 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
           specular,
           mis.weight_hit(step.left.pdf_solid, step.left.delta, pdf_nee, joint, step.behind),
           {joint, pdf_nee, true, ray.direction},
-          step.left});
+          step.left,
+          step.before.all(),
+          settings.expressions ? unread(light) : UnreadVertices()});
     };
     const auto on_segment = [&](float t_begin, float t_end, bool surface) {
       if (!shadow_ray) {
@@ -318,6 +399,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     }
     previous = receiver(v.hit, v.bsdf(), v.back);
     v.beta = step.beta;
+    v.states = step.after;
     v.clear = step.clear;
   }
 }

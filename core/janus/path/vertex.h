@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "janus/camera/camera.h"
+#include "janus/path/match.h"
 #include "janus/path/mis.h"
 #include "janus/path/rules.h"
 #include "janus/render/scene.h"
@@ -42,6 +43,7 @@ struct PathVertex {
   int edges;                      // from the start of the subpath
   int crossings;                  // of transparent surfaces since the start of the subpath
   BounceCounts bounces;           // at the vertices before this one, if PathRules::counts()
+  PathStates states;              // of all before it, if PathRules::expressions
   Departure previous;             // how the walk left the vertex before (edges > 1)
   RayMask visibility = kAllRays;  // of its object, if PathRules::ray_types
   // Light subpaths, if PathRules::ray_types: what sees the light, and the types that were drawn for

@@ -73,6 +73,7 @@ class Commit {
       const std::string& name = desc.name.empty() ? key : desc.name;
       Instance instance;
       instance.name = name;
+      instance.light_group = desc.light_group;
       instance.mesh = mesh->second;
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;
@@ -142,6 +143,7 @@ class Commit {
       if (light->power() > 0.0f || by_chance) {
         instance.light = static_cast<int>(scene_.lights.size());
         light->holdout = instance.holdout;
+        light->light_group = instance.light_group;
         scene_.lights.push_back(std::move(light));
       }
     }
@@ -157,6 +159,7 @@ class Commit {
         lamp.name = key;
       }
       for (auto& light : make_lamp(std::move(lamp), images, around, scene_.diagnostics)) {
+        light->light_group = desc.light_group;
         add_light(std::move(light));
       }
     }

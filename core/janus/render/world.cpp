@@ -242,6 +242,8 @@ std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const Ima
   const auto add = [&](std::unique_ptr<Light> light, RayMask seen_by) {
     light->visibility = world.visibility & seen_by;
     light->background = true;
+    light->name = world.name.empty() ? light->name : world.name;
+    light->light_group = world.light_group;
     lights.push_back(std::move(light));
   };
   if (!world.graph) {

@@ -54,6 +54,7 @@ struct InstanceDesc {
   float random = 0.0f;        // a number of the instance's own, in [0, 1]
   // What programs ask of it, by their keys (see shading/node_emitter.h).
   std::map<std::string, vec4> attributes;
+  std::string light_group{};  // where what it emits belongs; empty: nowhere
 };
 
 struct MaterialDesc {
@@ -94,12 +95,14 @@ struct LightDesc {
   bool cast_shadow = true;         // false: its light passes everything
   int max_bounces = 1024;          // of the paths that it lights
   std::optional<NodeGraph> graph;  // the light's own node tree
+  std::string light_group{};       // empty: none
 };
 
 struct WorldDesc {
   std::string name;
   std::optional<NodeGraph> graph;  // nullopt: black
   RayMask visibility = kAllRays;   // to the camera, and to labels
+  std::string light_group{};       // empty: none
 };
 
 enum class CameraType { Perspective, Orthographic, Equirectangular };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/session/session.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "janus/util/error.h"
@@ -13,9 +14,10 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-std::unique_ptr<Integrator> make_integrator(IntegratorType type, const RenderContext& context,
+std::unique_ptr<Integrator> make_integrator(const RenderSettings& choice,
+                                            const RenderContext& context,
                                             const IntegratorSettings& settings) {
-  switch (type) {
+  switch (choice.integrator) {
     case IntegratorType::PathTracer:
       return make_path_tracer(context, settings);
     case IntegratorType::LightTracer:
@@ -23,15 +25,51 @@ std::unique_ptr<Integrator> make_integrator(IntegratorType type, const RenderCon
     case IntegratorType::Bdpt:
       break;
   }
-  return make_bdpt(context, settings);
+  return choice.connection_mode == ConnectionMode::Classic ? make_classic_bdpt(context, settings)
+                                                           : make_bdpt(context, settings);
 }
 
 }  // namespace
 
 RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings settings)
-    : scene_(std::move(scene)), settings_(settings) {
-  settings_.validate();
-  film_.emplace(settings_.rect(), Filter(settings_.filter, settings_.filter_width));
+    : scene_(std::move(scene)),
+      settings_((settings.validate(), std::move(settings))),
+      passes_(settings_, *scene_),
+      diagnostics_(passes_.diagnostics()) {
+  check_lights();
+  film_.emplace(settings_.rect(), Filter(settings_.filter, settings_.filter_width),
+                passes_.layers().count());
+}
+
+// Some strategies need what can be hit.
+void RenderSession::check_lights() {
+  if (settings_.integrator == IntegratorType::LightTracer && !settings_.next_event &&
+      !make_camera(scene_->camera, 1, 1)->hittable()) {
+    throw SceneError(scene_->camera.name, "depth of field",
+                     "light paths cannot hit this camera (t=0): without next event estimation, "
+                     "light tracing needs a perspective camera with depth of field");
+  }
+  const bool only_hits =
+      settings_.integrator == IntegratorType::PathTracer
+          ? !settings_.next_event
+          : settings_.strategies && settings_.strategies->only_hits();
+  if (!only_hits) {
+    return;
+  }
+  size_t hittable = 0;
+  for (const auto& light : scene_->lights) {
+    hittable += light->hittable() ? 1 : 0;
+    if (!light->hittable()) {
+      diagnostics_.push_back({Severity::Warning, light->name, "", "",
+                              "the light is a point, which no path hits (s=0): it is not rendered "
+                              "without next event estimation"});
+    }
+  }
+  if (hittable == 0 && !scene_->lights.empty()) {
+    throw SceneError("settings", "next_event",
+                     "all lights of the scene are points, which no path hits (s=0): give them a "
+                     "radius or use next event estimation");
+  }
 }
 
 RenderSession::~RenderSession() {
@@ -80,7 +118,10 @@ void RenderSession::run() {
   }
   integrator_settings.walk.roulette = settings_.roulette;
   integrator_settings.contribution_roulette = settings_.roulette;
-  integrator_settings.only = settings_.technique;
+  integrator_settings.walk.expressions = passes_.automaton();
+  integrator_settings.layers = passes_.layers();
+  integrator_settings.strategies = settings_.strategies;
+  integrator_settings.next_event = settings_.next_event;
   integrator_settings.heuristic = settings_.heuristic;
   integrator_settings.light_paths = settings_.light_paths;
   integrator_settings.connections = settings_.connections;
@@ -90,7 +131,7 @@ void RenderSession::run() {
   integrator_settings.cache_bytes = settings_.cache_bytes;
   integrator_settings.check_weights = settings_.check_weights;
   const RenderContext context{*scene_, *camera, *film_, pool, cancel_};
-  const auto integrator = make_integrator(settings_.integrator, context, integrator_settings);
+  const auto integrator = make_integrator(settings_, context, integrator_settings);
 
   for (int pass = 0; pass < settings_.samples; ++pass) {
     cancel_.throw_if_cancelled();
@@ -158,6 +199,35 @@ Statistics RenderSession::statistics() const {
 Image RenderSession::snapshot() const {
   const std::lock_guard lock(mutex_);
   return film_->develop(settings_.film_exposure);
+}
+
+std::vector<std::string> RenderSession::passes() const {
+  std::vector<std::string> names{"Combined"};
+  for (const RenderPasses::Pass& pass : passes_.all()) {
+    names.push_back(pass.name);
+  }
+  return names;
+}
+
+Image RenderSession::snapshot(const std::string& name) const {
+  if (name == "Combined") {
+    return snapshot();
+  }
+  const auto pass = std::ranges::find(passes_.all(), name, &RenderPasses::Pass::name);
+  if (pass == passes_.all().end()) {
+    throw Error("there is no pass '" + name + "'");
+  }
+  const std::lock_guard lock(mutex_);
+  // Colours of surfaces are no light.
+  const float exposure = passes_.layers().is_color(pass->layer) ? 1.0f : settings_.film_exposure;
+  Image image = film_->develop_layer(pass->layer, exposure);
+  if (pass->color) {
+    const Image color = film_->develop_layer(*pass->color);
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+      image.pixels[i] = color.pixels[i] != 0.0f ? image.pixels[i] / color.pixels[i] : 0.0f;
+    }
+  }
+  return image;
 }
 
 void RenderSession::finish() {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "janus/image/image.h"
+#include "janus/session/passes.h"
 #include "janus/session/settings.h"
 
 namespace janus {
@@ -33,7 +34,7 @@ struct Statistics {
 // for more than a copy of the image, except wait() and finish().
 class RenderSession {
  public:
-  // Throws SceneError for settings that cannot be rendered.
+  // Throws SceneError for settings that cannot be rendered, or not of this scene.
   RenderSession(std::shared_ptr<const Scene> scene, RenderSettings settings);
   // Cancels and joins.
   ~RenderSession();
@@ -53,16 +54,28 @@ class RenderSession {
 
   // The mean of the whole passes so far: RGBA of the crop, scene linear, bottom row first.
   Image snapshot() const;
+  // Of the pass called `name`: RGBA of "Combined", RGB of the others. Throws Error for a name that
+  // is not in passes().
+  Image snapshot(const std::string& name) const;
+
+  // The names of all pictures: "Combined", then those that the settings ask for.
+  std::vector<std::string> passes() const;
+
+  // What of the settings has no effect in this scene.
+  const Diagnostics& diagnostics() const { return diagnostics_; }
 
   // Waits for the end and rethrows what the render threads threw. A cancelled render is no error.
   void finish();
 
  private:
+  void check_lights();
   void run();
   void end(Progress::State state, std::exception_ptr error);
 
   std::shared_ptr<const Scene> scene_;
   RenderSettings settings_;
+  RenderPasses passes_;
+  Diagnostics diagnostics_;
   CancelToken cancel_;
   std::thread thread_;
 

@@ -2,8 +2,10 @@
 #include "janus/session/settings.h"
 
 #include <cmath>
+#include <set>
 #include <utility>
 
+#include "janus/session/passes.h"
 #include "janus/util/error.h"
 
 namespace janus {
@@ -48,6 +50,24 @@ void RenderSettings::validate() const {
           "must be from 0 to 64 per vertex");
   require(std::isfinite(merge_radius) && merge_radius >= 0.0f, "merge_radius",
           "must be finite and at least 0");
+  const bool bidirectional = integrator == IntegratorType::Bdpt;
+  require(bidirectional || !strategies, "strategies", "can be chosen for bdpt only");
+  require(bidirectional || strategy_images == 0, "strategy_images", "are made by bdpt only");
+  require(strategy_images >= 0 && strategy_images <= 12, "strategy_images",
+          "must be from 0 to 12 edges");
+  std::set<std::string> names{"Combined"};
+  for (const std::string& name : light_passes) {
+    if (!is_light_pass(name)) {
+      throw SceneError("settings", "light_passes", "there is no pass '" + name + "'");
+    }
+    require(names.insert(name).second, "light_passes", "name one pass twice");
+  }
+  for (const ExpressionPass& pass : expressions) {
+    require(!pass.name.empty(), "expressions", "need a name each");
+    if (!names.insert(pass.name).second) {
+      throw SceneError("settings", "expressions", "two passes are called '" + pass.name + "'");
+    }
+  }
   require(integrator != IntegratorType::LightTracer || light_paths > 0.0f, "light_paths",
           "must be above 0 for light tracing");
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "janus/film/film.h"
 #include "janus/integrator/integrator.h"
@@ -9,6 +11,15 @@
 namespace janus {
 
 enum class IntegratorType { Bdpt, PathTracer, LightTracer };
+
+// bdpt: a cache of light vertices for all pixels, or a light path for each camera path.
+enum class ConnectionMode { Cache, Classic };
+
+// A picture beside the main one, of the paths that a light path expression describes.
+struct ExpressionPass {
+  std::string name, expression;
+  bool operator==(const ExpressionPass&) const = default;
+};
 
 // What to render; the scene says of what.
 struct RenderSettings {
@@ -33,6 +44,12 @@ struct RenderSettings {
   float merge_radius = 0.0f;     // bdpt: IntegratorSettings::merge_radius
   bool adaptive_counts = false;  // bdpt: IntegratorSettings::adaptive_counts
   Heuristic heuristic = Heuristic::Balance;
+  std::optional<Strategies> strategies;  // bdpt: IntegratorSettings::strategies
+  ConnectionMode connection_mode = ConnectionMode::Cache;
+  bool next_event = true;                   // IntegratorSettings::next_event
+  std::vector<ExpressionPass> expressions;  // at most PathAutomaton::kMostExpressions
+  std::vector<std::string> light_passes;    // Cycles' passes of light, by names in light_passes()
+  int strategy_images = 0;                  // bdpt: Layers::longest
   float film_exposure = 1.0f;  // a factor of the finished picture's colour
   bool film_transparent = false;
   // On a transparent film: the world is not seen through glass of up to this roughness either.
@@ -40,7 +57,6 @@ struct RenderSettings {
   float film_transparent_roughness = 0.1f;
   bool roulette = true;                // Russian roulette on walks and on contributions
   bool check_weights = false;          // debug: IntegratorSettings::check_weights
-  std::optional<Technique> technique;  // debug: bdpt with this technique alone, without weights
   size_t cache_bytes = size_t{256} << 20;
 
   FilmRect rect() const { return crop.value_or(FilmRect{0, 0, width, height}); }

@@ -136,7 +136,7 @@ TEST(BounceCaps, EveryTechnique) {
                                       {4, Limits{1, 1, 0}}}) {
     const auto technique = [&, edges = edges](int s, int count) {
       RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(count));
-      settings.technique = Technique{s, edges + 1 - s};
+      settings.strategies = Technique{s, edges + 1 - s};
       settings.seed = 100 * s;
       if (s == 0) {
         settings.light_paths = 0.0f;

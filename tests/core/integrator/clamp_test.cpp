@@ -56,7 +56,7 @@ TEST(Clamp, ActsOnWeightedContributions) {
   const Image open = render(scene, settings);
   settings.clamp_direct = settings.clamp_indirect = 1.001f * kWatts / (kPi * kSize * kSize);
   EXPECT_EQ(open.pixels, render(scene, settings).pixels);
-  settings.technique = Technique{2, 2};
+  settings.strategies = Technique{2, 2};
   const Image cut = render(scene, settings);
   settings.clamp_direct = settings.clamp_indirect = 0.0f;
   EXPECT_NE(cut.pixels, render(scene, settings).pixels);
@@ -68,7 +68,7 @@ TEST(Clamp, BoundsEveryTechnique) {
     for (int s = 0; s <= edges; ++s) {
       SCOPED_TRACE(::testing::Message() << "s = " << s << ", t = " << edges + 1 - s);
       RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(4));
-      settings.technique = Technique{s, edges + 1 - s};
+      settings.strategies = Technique{s, edges + 1 - s};
       const double open = quarters(scene, settings)[0].mean();
       (edges == 2 ? settings.clamp_direct : settings.clamp_indirect) = 1e-4f;
       const double cut = quarters(scene, settings)[0].mean();

@@ -175,7 +175,7 @@ void expect_techniques_agree(const SceneKit& kit, int edges, double tolerance) {
   const auto scene = kit.build();
   const auto of = [&](int s) {
     RenderSettings settings = picture(IntegratorType::Bdpt, samples(384), {true, true, 0.8f});
-    settings.technique = Technique{s, edges + 1 - s};
+    settings.strategies = Technique{s, edges + 1 - s};
     settings.light_paths = s == 0 ? 0.0f : 1.0f;
     return quarters(scene, settings);
   };

@@ -82,7 +82,7 @@ void expect_every_technique(const std::shared_ptr<const Scene>& scene,
   for (const int edges : {2, 3}) {
     const auto technique = [&](int s, int count) {
       RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(count));
-      settings.technique = Technique{s, edges + 1 - s};
+      settings.strategies = Technique{s, edges + 1 - s};
       settings.seed = 100 * s;
       if (s == 0) {
         settings.light_paths = 0.0f;

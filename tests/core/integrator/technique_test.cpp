@@ -69,7 +69,7 @@ TEST_P(SingleTechniques, AgreeForEachPathLength) {
     std::vector<Mean> reference;
     for (int s = 1; s <= edges; ++s) {
       RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(48));
-      settings.technique = Technique{s, edges + 1 - s};
+      settings.strategies = Technique{s, edges + 1 - s};
       const auto found = quarters(scene, settings);
       if (s == 1) {
         reference = found;
@@ -80,7 +80,7 @@ TEST_P(SingleTechniques, AgreeForEachPathLength) {
     }
     RenderSettings hits = small_picture(IntegratorType::Bdpt, samples(400));
     hits.light_paths = 0.0f;
-    hits.technique = Technique{0, edges + 1};
+    hits.strategies = Technique{0, edges + 1};
     const auto found = quarters(scene, hits);
     SCOPED_TRACE(::testing::Message() << "s = 0, t = " << edges + 1);
     if (GetParam().hittable) {
@@ -101,7 +101,7 @@ void expect_agreement_over_three_edges(const SceneKit& kit) {
   std::vector<Mean> reference;
   for (int s = 1; s <= 3; ++s) {
     RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(64));
-    settings.technique = Technique{s, 4 - s};
+    settings.strategies = Technique{s, 4 - s};
     settings.seed = 100 * s;
     SCOPED_TRACE(::testing::Message() << "s = " << s);
     const auto found = quarters(scene, settings);

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the bidirectional integrators share: what a join adds to the picture and to its layers. How
+// they find joins is their own business.
+#pragma once
+
+#include "janus/integrator/pass.h"
+#include "janus/integrator/roulette_map.h"
+#include "janus/integrator/vertex_cache.h"
+
+namespace janus {
+
+class BidirectionalIntegrator : public PassIntegrator {
+ public:
+  BidirectionalIntegrator(const RenderContext& context, const IntegratorSettings& settings)
+      : PassIntegrator(context, settings), mis_(settings.heuristic, counts_) {
+    counts_.nee = settings.next_event ? 1.0f : 0.0f;
+    renew_weights();
+  }
+
+ protected:
+  // A pixel's sample in the making.
+  struct Sample {
+    size_t index;
+    Rgb sum = Rgb(0.0f);
+  };
+
+  void renew_weights() { mis_ = Mis(settings_.heuristic, counts_); }
+
+  float weight(const MisWeight& weight, Technique technique) const {
+    return settings_.strategies ? settings_.strategies->weight(technique.s, technique.t)
+                                : weight.value;
+  }
+
+  // What arrives of a connection's weighted `value` over its shadow ray, which completes a path of
+  // `edges` edges; `samples` and `rays` are counted.
+  Rgb arriving(Rgb value, const Connection& c, int edges, const Roulette& roulette,
+               Sampler& sampler, uint64_t& samples, uint64_t& rays) const {
+    if (is_black(value)) {
+      return value;
+    }
+    ++samples;
+    float scale = c.made_up;
+    const int crossings = settings_.walk.max_crossings - c.crossings;
+    if (crossings < 0 || !roulette.survives(scale * max_component(value), sampler, scale)) {
+      return Rgb(0.0f);
+    }
+    ++rays;
+    const Rgb arrived =
+        value * context_.scene.transmittance(c.from, c.to, c.type, crossings, c.camera);
+    return settings_.clamp(arrived, edges) * scale;
+  }
+
+  // Adds `value`, to which `weight` has been applied, to the sample. path() is called for layers.
+  template <class Path>
+  void gather(Rgb value, float weight, Technique technique, Sample& sample, Counters& counters,
+              Path&& path) {
+    if (!usable(value, counters)) {
+      return;
+    }
+    sample.sum += value;
+    if (settings_.layers.any()) {
+      const std::span<Rgb> layers = context_.film.layers_at(sample.index);
+      settings_.layers.spread(value, weight, technique, settings_.walk.expressions, path(),
+                              [&](size_t layer, Rgb part) { layers[layer] += part; });
+    }
+  }
+
+  // The light's side of paths that start with nothing but light `index`.
+  WeightedState light_state(size_t index) const {
+    const PathAutomaton* automaton = settings_.walk.expressions;
+    return {automaton ? automaton->from_light(index) : PathAutomaton::kDead, Rgb(1.0f)};
+  }
+
+  // s=0. `share`: of what is found over deltas alone.
+  Rgb gather_light(const LightFound& found, float share, Sample& sample, Counters& counters) {
+    const Technique technique{0, found.edges + 1};
+    const float w = weight(found.weight, technique);
+    const Rgb value = settings_.clamp(found.beta * found.hit.radiance * w, found.edges) * share;
+    const WeightedState light = light_state(found.light);
+    gather(value, w, technique, sample, counters,
+           [&] { return SortedPath{{&light, 1}, found.states, found.unread}; });
+    return value;
+  }
+
+  // s=1. Returns what was added, and sets `found`.
+  Rgb gather_next_event(const PathVertex& v, const Roulette& roulette, Sampler& sampler,
+                        Sample& sample, Counters& counters, MisWeight& found) {
+    if (!settings_.next_event || !context_.scene.light_sampler.illuminates()) {
+      return Rgb(0.0f);
+    }
+    const auto nee = connect_to_light(context_.scene, v, mis_, settings_.walk, sampler);
+    if (!nee) {
+      return Rgb(0.0f);
+    }
+    const Connection& c = nee->connection;
+    const Technique technique{1, v.edges + 1};
+    const float w = weight(c.weight, technique);
+    const Rgb value = arriving(c.value * w, c, v.edges + 1, roulette, sampler,
+                               counters.nee_samples, counters.nee_rays);
+    const WeightedState light = light_state(nee->light);
+    gather(value, w, technique, sample, counters,
+           [&] { return SortedPath{{&light, 1}, v.states.all(), c.unread}; });
+    found = c.weight;
+    return value;
+  }
+
+  // s, t >= 2: joins with one vertex of a light subpath, where `scale` is the estimator's factor.
+  Rgb gather_connection(const LightVertex& l, const CacheBlock& block, const PathVertex& v,
+                        float scale, const Roulette& roulette, Sampler& sampler, Sample& sample,
+                        Counters& counters, MisWeight& found) {
+    ++counters.connections;
+    const int edges = l.edges + v.edges + 1;
+    if (edges > l.max_edges) {
+      return Rgb(0.0f);
+    }
+    const BsdfView light_bsdf = block.bsdf(l);
+    __builtin_prefetch(light_bsdf.lobes().data());
+    const auto c = connect_vertices(l, light_bsdf, v, mis_, settings_.walk, scale, roulette,
+                                    sampler, counters);
+    if (!c) {
+      return Rgb(0.0f);
+    }
+    uint64_t with_value = 0;
+    const Technique technique{l.edges + 1, v.edges + 1};
+    const float w = weight(c->weight, technique);
+    const Rgb value = arriving(c->value * w, *c, edges, roulette, sampler, with_value,
+                               counters.connection_rays);
+    gather(value, w, technique, sample, counters,
+           [&] { return SortedPath{block.states_of(l), v.states.all(), c->unread}; });
+    found = c->weight;
+    return value;
+  }
+
+  // t=1, for one of `light_paths` light paths, those of a block by one thread. Calls
+  // on_splat(raster, value, weight).
+  template <class OnSplat>
+  void splat(const PathVertex& v, float light_paths, const RouletteMap& roulettes, float margin,
+             Sampler& sampler, size_t block, Counters& counters, OnSplat&& on_splat) {
+    const auto s =
+        connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk);
+    if (!s) {
+      return;
+    }
+    const Connection& c = s->connection;
+    const Technique technique{v.edges + 1, 1};
+    const float w = weight(c.weight, technique);
+    const Rgb value = arriving(c.value * w / light_paths, c, v.edges + 1, roulettes.at(s->raster),
+                               sampler, counters.splats, counters.splat_rays);
+    if (!usable(value, counters)) {
+      return;
+    }
+    picture_splats_[block].push_back({s->raster, value});
+    if (settings_.layers.any()) {
+      const SortedPath path{v.states.all(), camera_state(), c.unread};
+      settings_.layers.spread(value, w, technique, settings_.walk.expressions, path,
+                              [&](size_t layer, Rgb part) {
+                                layer_splats_[block].push_back(
+                                    {s->raster, part, static_cast<uint32_t>(layer)});
+                              });
+    }
+    on_splat(s->raster, value, c.weight);
+  }
+
+  // None yet, in `blocks` blocks that keep their memory.
+  void start_splats(size_t blocks) {
+    picture_splats_.resize(std::max(picture_splats_.size(), blocks));
+    layer_splats_.resize(picture_splats_.size());
+    splat_blocks_ = blocks;
+    for (size_t i = 0; i < blocks; ++i) {
+      picture_splats_[i].clear();
+      layer_splats_[i].clear();
+    }
+  }
+  void add_splats_to_film() {
+    context_.film.add_splats(std::span(picture_splats_).first(splat_blocks_), context_.pool);
+    if (settings_.layers.any()) {
+      context_.film.add_splats(std::span(layer_splats_).first(splat_blocks_), context_.pool);
+    }
+  }
+
+  SampleCounts counts_;
+  Mis mis_;
+
+ private:
+  std::vector<std::vector<Splat>> picture_splats_;  // by block of light paths
+  std::vector<std::vector<LayerSplat>> layer_splats_;
+  size_t splat_blocks_ = 0;
+};
+
+}  // namespace janus

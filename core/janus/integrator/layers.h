@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What integrators add to the layers of the film: first one for each light path expression, then
+// the colours of surfaces, then the images of strategies.
+#pragma once
+
+#include "janus/integrator/strategies.h"
+#include "janus/path/match.h"
+#include "janus/shading/surface_color.h"
+
+namespace janus {
+
+struct Layers {
+  size_t expressions = 0;  // how many of them
+  bool colors = false;     // what the camera sees, by kind: three layers
+  int longest = 0;         // each strategy has images for paths of so many edges; 0: no images
+
+  // Each strategy has an image with its weights and, after it, one without: all light that it finds
+  // alone. Strategies are in the order of their edges, then of s. Light straight into the camera
+  // has only s=0.
+  size_t strategy(Technique technique) const {
+    const int k = technique.edges();
+    const int shorter = k * (k + 1) / 2 - 1;  // 1 of one edge, k + 1 of k edges
+    return first_strategy() + 2 * static_cast<size_t>(k == 1 ? 0 : shorter - 1 + technique.s);
+  }
+  // The weighted image of all that is longer.
+  size_t longer() const { return strategy({0, longest + 2}); }
+
+  // Of what surfaces scatter diffusely; then glossily, then what they transmit.
+  size_t first_color() const { return expressions; }
+  bool is_color(size_t layer) const {
+    return layer >= first_color() && layer < first_strategy();
+  }
+
+  size_t count() const { return longest > 0 ? longer() + 1 : first_strategy(); }
+  bool any() const { return count() > 0; }
+
+  // Calls add(layer, value) for each layer that shows a part of `value`, to which a weight of
+  // `weight` has been applied. `automaton`: null without expressions.
+  template <class Add>
+  void spread(Rgb value, float weight, Technique technique, const PathAutomaton* automaton,
+              const SortedPath& path, Add&& add) const {
+    if (automaton) {
+      for_each_match(*automaton, path,
+                     [&](size_t expression, Rgb share) { add(expression, value * share); });
+    }
+    if (longest == 0) {
+      return;
+    }
+    if (technique.edges() > longest) {
+      add(longer(), value);
+      return;
+    }
+    const size_t layer = strategy(technique);
+    add(layer, value);
+    if (weight > 0.0f) {
+      add(layer + 1, value / weight);
+    }
+  }
+
+  // Adds the colours of what the camera sees, through `beta`, to the layers of its pixel.
+  void add_color(const BsdfView& bsdf, vec3 wo, Rgb beta, std::span<Rgb> layers) const {
+    const SurfaceColor color = surface_color(bsdf, wo);
+    layers[first_color()] += beta * color.diffuse;
+    layers[first_color() + 1] += beta * color.glossy;
+    layers[first_color() + 2] += beta * color.transmission;
+  }
+
+ private:
+  size_t first_strategy() const { return first_color() + (colors ? 3 : 0); }
+};
+
+}  // namespace janus

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How paths are sorted by light path expressions. A vertex that scatters in two kinds at once, say
+// by a diffuse and by a glossy lobe, makes two paths of one, each with its share of the value by
+// channel: f_l / f. So a subpath is in several states of the automaton, each with a share, which
+// together are the whole.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+#include "janus/path/automaton.h"
+#include "janus/sampling/sampler.h"
+
+namespace janus {
+
+// A vertex that neither side of the automaton has read yet.
+struct UnreadVertex {
+  uint32_t instance;
+  ScatterShares shares;
+
+  // Calls f(event, share) for its kinds.
+  template <class F>
+  void for_each_kind(F&& f) const {
+    if (!is_black(shares.diffuse)) {
+      f(shares.diffuse_event(), shares.diffuse);
+    }
+    if (shares.diffuse != Rgb(1.0f)) {
+      f(shares.other_event(), Rgb(1.0f) - shares.diffuse);
+    }
+  }
+};
+
+struct WeightedState {
+  PathAutomaton::State state;
+  Rgb share;
+};
+
+// The states of a subpath.
+class PathStates {
+ public:
+  PathStates() {}  // not `= default`, which would have the array set to zero
+  explicit PathStates(PathAutomaton::State state) { add(state, Rgb(1.0f)); }
+  PathStates(const PathStates& other) { *this = other; }
+  PathStates& operator=(const PathStates& other) {
+    count_ = other.count_;
+    std::copy_n(other.states_, count_, states_);
+    return *this;
+  }
+
+  std::span<const WeightedState> all() const { return {states_, static_cast<size_t>(count_)}; }
+
+  // After `vertex`, read by `next(state, event, instance)`. `sampler`: for subpaths in more states
+  // than there is room for, of which one is then dropped by chance in favour of another.
+  template <class Next>
+  PathStates after(const UnreadVertex& vertex, Next&& next, Sampler& sampler) const {
+    PathStates read;
+    vertex.for_each_kind([&](int event, Rgb share) {
+      for (const WeightedState& s : all()) {
+        read.add(next(s.state, event, vertex.instance), s.share * share, sampler);
+      }
+    });
+    return read;
+  }
+
+ private:
+  static constexpr int kMost = 6;
+
+  // True if the state was there, or there was room.
+  bool add(PathAutomaton::State state, Rgb share) {
+    if (state == PathAutomaton::kDead || is_black(share)) {
+      return true;
+    }
+    for (int i = 0; i < count_; ++i) {
+      if (states_[i].state == state) {
+        states_[i].share += share;
+        return true;
+      }
+    }
+    if (count_ == kMost) {
+      return false;
+    }
+    states_[count_++] = {state, share};
+    return true;
+  }
+  void add(PathAutomaton::State state, Rgb share, Sampler& sampler) {
+    if (add(state, share)) {
+      return;
+    }
+    WeightedState& rival =
+        *std::ranges::min_element(states_, {}, [](const auto& s) { return max_component(s.share); });
+    const float own = max_component(share), others = max_component(rival.share);
+    const float pmf = own / (own + others);
+    if (sampler.next_1d() < pmf) {
+      rival = {state, share / pmf};
+    } else {
+      rival.share /= 1.0f - pmf;
+    }
+  }
+
+  WeightedState states_[kMost];  // not initialised beyond the count
+  int count_ = 0;
+};
+
+// The vertices of a finished path that neither side has read, from the light to the camera.
+struct UnreadVertices {
+  UnreadVertex vertices[2];  // not initialised beyond the count
+  int count = 0;
+
+  UnreadVertices() {}
+  explicit UnreadVertices(const UnreadVertex& one) : count(1) { vertices[0] = one; }
+  UnreadVertices(const UnreadVertex& one, const UnreadVertex& other) : count(2) {
+    vertices[0] = one;
+    vertices[1] = other;
+  }
+};
+
+// A finished path for the automaton.
+struct SortedPath {
+  std::span<const WeightedState> light, camera;  // what both sides have read
+  UnreadVertices unread;
+};
+
+// Calls f(expression, share) for the parts of a path that belong to an expression.
+template <class F>
+void for_each_match(const PathAutomaton& automaton, const SortedPath& path, F&& f) {
+  const auto report = [&](PathAutomaton::State light, PathAutomaton::State camera, Rgb share) {
+    for (ExpressionMask rest = automaton.completed(light, camera); rest != 0; rest &= rest - 1) {
+      f(static_cast<size_t>(std::countr_zero(rest)), share);
+    }
+  };
+  const UnreadVertex* unread = path.unread.vertices;
+  for (const WeightedState& light : path.light) {
+    for (const WeightedState& camera : path.camera) {
+      const Rgb share = light.share * camera.share;
+      if (path.unread.count == 0) {
+        report(light.state, camera.state, share);
+        continue;
+      }
+      unread[0].for_each_kind([&](int event, Rgb part) {
+        const auto read = automaton.forward(light.state, event, unread[0].instance);
+        if (path.unread.count == 1) {
+          report(read, camera.state, share * part);
+          return;
+        }
+        unread[1].for_each_kind([&](int second, Rgb second_part) {
+          report(automaton.forward(read, second, unread[1].instance), camera.state,
+                 share * part * second_part);
+        });
+      });
+    }
+  }
+}
+
+}  // namespace janus
