@@ -250,22 +250,6 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         subtype="FILE_PATH",
         options={"HIDDEN", "SKIP_SAVE"},
     )
-    strategies_length: IntProperty(
-        name="Longest Path",
-        description="Number of edges of the longest paths of which the next renders make an image "
-        "for each technique (0: none)",
-        min=0,
-        max=16,
-        default=0,
-        options={"HIDDEN", "SKIP_SAVE"},
-    )
-    keep_passes: BoolProperty(
-        name="Keep Passes",
-        description="The next renders leave their passes in memory for scripts, to which Blender "
-        "shows none",
-        default=False,
-        options={"HIDDEN", "SKIP_SAVE"},
-    )
 
 
 def register():

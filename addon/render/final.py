@@ -24,8 +24,9 @@ POLL_SECONDS = 0.05
 # commit_seconds, counts (of the scene), cancelled, view_layer, frame. Empty if it failed.
 last_render: dict = {}
 
-# Name of a view layer -> name of a pass -> pixels, of the last render if scene.janus.keep_passes.
-# Whoever asked for them clears it.
+# Blender shows the passes of a render to no script. Those of the scenes named here are kept: name
+# of a view layer -> name of a pass -> pixels. Whoever asked for them clears both.
+keep_passes_of: set[str] = set()
 kept_passes: dict[str, dict[str, np.ndarray]] = {}
 
 
@@ -145,7 +146,8 @@ def _run(engine, session, settings, result) -> bool:
 def _hand_over(session, depsgraph, result) -> None:
     """All passes at the end. One by one: together they can be larger than everything else."""
     scene, layer = depsgraph.scene_eval, depsgraph.view_layer_eval
-    kept = kept_passes.setdefault(layer.name, {}) if scene.janus.keep_passes else None
+    keep = scene.name_full in keep_passes_of
+    kept = kept_passes.setdefault(layer.name, {}) if keep else None
     known = set(session.passes())
     for found in (Pass("Combined", "Combined"), *requested(scene, layer)):
         if found.key in known:

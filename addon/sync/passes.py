@@ -34,6 +34,10 @@ READY_MADE = (
     ("use_pass_caustics", "Caustics", "L(S|G)+D.*E"),
 )
 
+# Name of a scene -> number of edges of the longest paths of which its next renders make an image
+# for each technique. No property: it must not be saved with the file.
+strategy_lengths: dict[str, int] = {}
+
 
 @dataclass(frozen=True)
 class Pass:
@@ -46,7 +50,7 @@ class Pass:
 def requested(scene, layer) -> list[Pass]:
     """All passes of a render of the view layer but Combined, in the order of the menus."""
     names = [name for name, _ in expressions(layer)]
-    names += strategy_names(scene.janus.strategies_length)
+    names += strategy_names(strategy_length(scene))
     return [*light_passes(layer), *(Pass(name, name) for name in names)]
 
 
@@ -67,7 +71,7 @@ def arguments(scene, layer) -> dict:
     return {
         "expressions": wanted,
         "light_passes": [found.key for found in light_passes(layer)],
-        "strategy_images": scene.janus.strategies_length,
+        "strategy_images": strategy_length(scene),
     }
 
 
@@ -109,6 +113,10 @@ def name_problem(layer, item) -> str:
             break
         taken.add(other.name)
     return f"There is another pass '{item.name}'" if item.name in taken else ""
+
+
+def strategy_length(scene) -> int:
+    return strategy_lengths.get(scene.name_full, 0)
 
 
 def strategies(length: int) -> list[tuple[int, int]]:

@@ -209,12 +209,13 @@ def test_what_cannot_be_merged_is_not(scene, fake_core, name, value):
 
 def test_scripts_can_have_the_passes(scene, layer, fake_core):
     layer.janus.use_pass_direct = True
-    kept = part("render.final").kept_passes
-    kept.clear()
+    final = part("render.final")
+    kept = final.kept_passes
     bpy.ops.render.render()
     assert kept == {}
-    scene.janus.keep_passes = True
+    final.keep_passes_of.add(scene.name_full)
     bpy.ops.render.render()
     assert set(kept[layer.name]) == {"Combined", "Direct"}
     assert np.all(kept[layer.name]["Direct"] == 1.0)
+    final.keep_passes_of.clear()
     kept.clear()
