@@ -182,3 +182,16 @@ def test_only_bidirectional_has_strategies(scene, fake_core, integrator):
     with pytest.raises(RuntimeError, match="Only Janus' integrator Bidirectional"):
         bpy.ops.janus.render_strategies()
     assert fake_core.sessions == []
+
+
+def test_in_a_window_the_sheet_is_shown_after_the_render(scene, fake_core, tmp_path, strategies):
+    """There, Blender renders in the background of the window and a timer waits for it."""
+    operators = part("operators.strategies")
+    strategies.ask(scene, 1)
+    bpy.ops.render.render()
+    assert operators._Waiting(scene.name, str(tmp_path), 0.0)() is None  # is not called again
+    assert (tmp_path / "strategies.png").is_file() and "strategies.png" in bpy.data.images
+    bpy.ops.render.render()
+    assert fake_core.settings.strategy_images == 0
+    operators._Waiting("gone", str(tmp_path / "gone"), 0.0)()
+    assert not (tmp_path / "gone").exists()
