@@ -219,3 +219,19 @@ def test_scripts_can_have_the_passes(scene, layer, fake_core):
     assert np.all(kept[layer.name]["Direct"] == 1.0)
     final.keep_passes_of.clear()
     kept.clear()
+
+
+def test_instances_are_in_the_group_of_what_is_instanced(scene, layer, export):
+    """Not of who instances it, as in Cycles."""
+    panel = add_square("Panel")
+    panel.lightgroup = "Key"
+    collection = bpy.data.collections.new("Panels")
+    collection.objects.link(panel)
+    scene.collection.objects.unlink(panel)
+    empty = bpy.data.objects.new("Rig", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    empty.lightgroup = "Rim"
+    scene.collection.objects.link(empty)
+    for name in ("Key", "Rim"):
+        layer.lightgroups.add(name=name)
+    assert export().by_name()["Panel"]["light_group"] == "Key"
