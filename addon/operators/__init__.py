@@ -1,6 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators, and what happens when the user picks the engine."""
 
-from .cycles_settings import register, unregister
+from . import cycles_settings, expressions, strategies
 
-__all__ = ["register", "unregister"]
+MODULES = (cycles_settings, expressions, strategies)
+
+
+def register():
+    for module in MODULES:
+        module.register()
+
+
+def unregister():
+    for module in reversed(MODULES):
+        module.unregister()

@@ -1,6 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings that Blender saves with a file: scene.janus."""
+"""The settings that Blender saves with a file: scene.janus and view_layer.janus."""
 
-from .scene import JanusSceneSettings, register, unregister
+from . import scene, view_layer
 
-__all__ = ["JanusSceneSettings", "register", "unregister"]
+
+def register():
+    scene.register()
+    view_layer.register()
+
+
+def unregister():
+    view_layer.unregister()
+    scene.unregister()

@@ -14,6 +14,8 @@ from bpy.props import (
     StringProperty,
 )
 
+from .view_layer import check
+
 # The numbers are what .blend files hold: never change or reuse one.
 INTEGRATORS = (
     ("BDPT", "Bidirectional", "Paths from the camera and from the lights, combined", 0),
@@ -28,7 +30,26 @@ FILTERS = (
 HEURISTICS = (
     ("BALANCE", "Balance", "Weights proportional to each technique's density", 0),
     ("POWER", "Power", "Weights proportional to the square of each technique's density", 1),
+    ("NONE", "None", "No weights: the mean of the techniques that are chosen below", 2),
 )
+CONNECTION_MODES = (
+    (
+        "CACHE",
+        "Light Vertex Cache",
+        "Each vertex of a camera path is joined with vertices of any light path",
+        0,
+    ),
+    (
+        "CLASSIC",
+        "Classic",
+        "Each camera path has a light path of its own, and all their vertices are joined",
+        1,
+    ),
+)
+
+
+def _check_strategies(self, _context):
+    self.strategies_message = check("check_strategies", self.strategies)
 
 
 class JanusSceneSettings(bpy.types.PropertyGroup):
@@ -111,6 +132,19 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         items=INTEGRATORS,
         default="BDPT",
     )
+    next_event: BoolProperty(
+        name="Next Event Estimation",
+        description="Paths also look for the other side at each vertex: camera paths for a light, "
+        "light paths for the camera. Without, they must hit it by chance, so lights without size "
+        "and cameras without an aperture stay dark to them",
+        default=True,
+    )
+    connection_mode: EnumProperty(
+        name="Connections",
+        description="Which vertices of light paths the camera paths are joined with",
+        items=CONNECTION_MODES,
+        default="CACHE",
+    )
     adaptive_counts: BoolProperty(
         name="Automatic",
         description="Starts with the numbers below, measures their use in the scene, and goes on "
@@ -157,6 +191,17 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         description="How the techniques that can find the same path share its light",
         items=HEURISTICS,
         default="BALANCE",
+    )
+    strategies: StringProperty(
+        name="Strategies",
+        description="The techniques in use, as pairs s,t of how many vertices are made from the "
+        "light and from the camera, * for any number: 0,* is path tracing without, 1,* with next "
+        "event estimation, *,1 light tracing. Nothing: all. Several that find paths of the same "
+        "length are averaged",
+        update=_check_strategies,
+    )
+    strategies_message: StringProperty(
+        name="Message", description="What is wrong with the strategies", options={"HIDDEN"}
     )
     pixel_filter_type: EnumProperty(
         name="Filter Type",

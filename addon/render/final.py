@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The F12 render of one view layer: export, build, render, hand over the pixels."""
 
+import contextlib
 import time
 
 import bpy
+import numpy as np
 
 from .. import bridge
-from ..report import RenderCancelled
+from ..report import RenderCancelled, RenderRefused
 from ..sync import sync_scene
+from ..sync.passes import Pass, requested
 from ..sync.settings import frame as read_frame
 from ..sync.settings import render_settings
 from .partial import save_partial
@@ -21,6 +24,11 @@ POLL_SECONDS = 0.05
 # commit_seconds, counts (of the scene), cancelled, view_layer, frame. Empty if it failed.
 last_render: dict = {}
 
+# Blender shows the passes of a render to no script. Those of the scenes named here are kept: name
+# of a view layer -> name of a pass -> pixels. Whoever asked for them clears both.
+keep_passes_of: set[str] = set()
+kept_passes: dict[str, dict[str, np.ndarray]] = {}
+
 
 def render_layer(engine, depsgraph, log) -> None:
     """Renders the depsgraph's view layer into Blender's result.
@@ -29,6 +37,7 @@ def render_layer(engine, depsgraph, log) -> None:
     full-size result then, too, and pixels that existed are saved in the partial file.
     """
     last_render.clear()
+    kept_passes.pop(depsgraph.view_layer_eval.name, None)
     frame = read_frame(depsgraph, engine.is_animation)
     result = LayerResult(engine, frame)
     stamp = None
@@ -50,11 +59,15 @@ def render_layer(engine, depsgraph, log) -> None:
 
 def _render(engine, depsgraph, frame, result, log) -> dict:
     core = bridge.core()
-    settings = core.RenderSettings(**render_settings(depsgraph))
+    keywords = render_settings(depsgraph)
+    with _user_errors(core):
+        settings = core.RenderSettings(**keywords)
     scene, stats = _build(core, engine, depsgraph, frame, settings, log)
-    session = core.RenderSession(scene, settings)
+    with _user_errors(core):
+        session = core.RenderSession(scene, settings)
     try:
         cancelled = _run(engine, session, settings, result)
+        _hand_over(session, depsgraph, result)
     except Exception:
         _save_what_there_is(session, frame, result, log)
         raise
@@ -70,6 +83,15 @@ def _render(engine, depsgraph, frame, result, log) -> dict:
         f" export {stats['sync_seconds']:.2f} s, build {stats['commit_seconds']:.2f} s"
     )
     return stats
+
+
+@contextlib.contextmanager
+def _user_errors(core):
+    """What the core refuses here, a user has typed: it is said to the user, without a traceback."""
+    try:
+        yield
+    except core.SceneError as error:
+        raise RenderRefused(str(error)) from error
 
 
 def _build(core, engine, depsgraph, frame, settings, log):
@@ -98,7 +120,7 @@ def _build(core, engine, depsgraph, frame, settings, log):
 
 
 def _run(engine, session, settings, result) -> bool:
-    """Renders to the end or until the user stops; the pixels of all whole passes are shown.
+    """Renders to the end or until the user stops, and shows the picture on the way.
 
     Returns whether the user stopped it.
     """
@@ -118,8 +140,22 @@ def _run(engine, session, settings, result) -> bool:
             rhythm.shown(time.perf_counter() - started)
     session.finish()
     engine.update_progress(1.0)
-    result.push({"Combined": session.snapshot("Combined")})
     return cancelled
+
+
+def _hand_over(session, depsgraph, result) -> None:
+    """All passes at the end. One by one: together they can be larger than everything else."""
+    scene, layer = depsgraph.scene_eval, depsgraph.view_layer_eval
+    keep = scene.name_full in keep_passes_of
+    kept = kept_passes.setdefault(layer.name, {}) if keep else None
+    known = set(session.passes())
+    for found in (Pass("Combined", "Combined"), *requested(scene, layer)):
+        if found.key in known:
+            pixels = session.snapshot(found.key)
+            result.fill(found.name, pixels)
+            if kept is not None:
+                kept[found.name] = pixels
+    result.show()
 
 
 def _save_what_there_is(session, frame, result, log) -> None:

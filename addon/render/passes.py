@@ -3,13 +3,14 @@
 
 import numpy as np
 
-# name, channels, channel letters, type, as Blender's compositor expects them
-PASSES = (("Combined", 4, "RGBA", "COLOR"),)
+from ..sync.passes import requested
 
 
 def register_passes(engine, scene, view_layer) -> None:
-    for name, channels, letters, kind in PASSES:
-        engine.register_pass(scene, view_layer, name, channels, letters, kind)
+    """Blender makes these passes and no others, and the compositor has sockets for them."""
+    engine.register_pass(scene, view_layer, "Combined", 4, "RGBA", "COLOR")
+    for found in requested(scene, view_layer):
+        engine.register_pass(scene, view_layer, found.name, 3, "RGB", "COLOR")
 
 
 class LayerResult:
@@ -26,16 +27,24 @@ class LayerResult:
 
     def push(self, pixels: dict[str, np.ndarray]) -> None:
         """Shows float32 arrays [H, W, C] by pass name, bottom row first."""
+        for name, values in pixels.items():
+            self.fill(name, values)
+        self.show()
+
+    def fill(self, name: str, values: np.ndarray) -> None:
+        """Sets one pass, without showing it yet."""
         self._begin()
         for rendered in self._result.layers[0].passes:  # with stereo, one of a name per view
-            if rendered.name in pixels:
-                flat = np.ascontiguousarray(pixels[rendered.name], dtype=np.float32).reshape(-1)
+            if rendered.name == name:
+                flat = np.ascontiguousarray(values, dtype=np.float32).reshape(-1)
                 expected = len(rendered.rect) * rendered.channels
                 if flat.size != expected:
                     raise RuntimeError(
                         f"pass {rendered.name} has {flat.size} values, Blender wants {expected}"
                     )
                 rendered.rect.foreach_set(flat)
+
+    def show(self) -> None:
         self._engine.update_result(self._result)
 
     def end(self) -> None:

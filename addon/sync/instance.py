@@ -6,7 +6,14 @@ import numpy as np
 from .light import sync_light
 from .mesh import mesh_arrays
 from .properties import OF_INSTANCE, OF_OBJECT, InstanceProperties, object_attributes
-from .visibility import UNSUPPORTED_TYPES, check_hair, check_linking, check_object, surface_seen_by
+from .visibility import (
+    UNSUPPORTED_TYPES,
+    check_hair,
+    check_linking,
+    check_object,
+    light_group,
+    surface_seen_by,
+)
 
 # Object types that have a surface. Whatever they are, the depsgraph shows their faces as an
 # instance of type MESH beside the object itself, so only that is exported.
@@ -82,6 +89,7 @@ class InstanceSync:
             "materials": materials,
             "color": tuple(obj.color),
             "object_index": obj.pass_index,
+            "light_group": light_group(obj, self._view_layer),
             "attributes": object_attributes(obj, keys),
             **surface_seen_by(instance, self._view_layer),
         }

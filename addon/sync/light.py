@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from .graph import read_graph
-from .visibility import LIGHT_RAYS, seen_by
+from .visibility import LIGHT_RAYS, light_group, seen_by
 
 
 def sync_light(builder, key: str, obj, matrix, depsgraph, images, log) -> None:
@@ -30,6 +30,7 @@ def sync_light(builder, key: str, obj, matrix, depsgraph, images, log) -> None:
         cast_shadow=light.use_shadow,
         max_bounces=getattr(getattr(light, "cycles", None), "max_bounces", 1024),
         graph=graph,
+        light_group=light_group(obj, depsgraph.view_layer_eval),
         **shape(light),
         **seen_by(obj, LIGHT_RAYS),
     )

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from . import cycles_settings
+from . import cycles_settings, passes
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def crop_window(render, width: int, height: int):
 
 
 def render_settings(depsgraph) -> dict:
-    """The keyword arguments of janus_core.RenderSettings."""
+    """The keyword arguments of janus_core.RenderSettings. Raises RenderRefused."""
     scene = depsgraph.scene_eval
     render, janus = scene.render, scene.janus
     width, height = frame_size(render)
@@ -96,16 +96,25 @@ def render_settings(depsgraph) -> dict:
         "filter": filter_type,
         # A box has no width to choose in Cycles: the panel hides the setting, which has no effect.
         "filter_width": 1.0 if filter_type == "BOX" else shared("filter_width"),
+        "next_event": janus.next_event,
+        "connection_mode": janus.connection_mode,
         "light_paths": janus.light_paths,
         "connections": janus.connections,
-        "merge_radius": janus.merge_radius if janus.use_merging else 0.0,
+        "merge_radius": janus.merge_radius if merges(janus) else 0.0,
         "adaptive_counts": janus.adaptive_counts,
         "heuristic": janus.heuristic,
+        "strategies": janus.strategies if janus.heuristic == "NONE" else "",
         "film_exposure": shared("film_exposure"),
         "film_transparent": render.film_transparent,
         "film_transparent_glass": shared("film_transparent_glass"),
         "film_transparent_roughness": shared("film_transparent_roughness"),
+        **passes.arguments(scene, depsgraph.view_layer_eval),
     }
+
+
+def merges(janus) -> bool:
+    """Are vertices merged? That takes the cache, and weights."""
+    return janus.use_merging and janus.connection_mode == "CACHE" and janus.heuristic != "NONE"
 
 
 def partial_path(scene, is_animation: bool) -> str:

@@ -13,6 +13,12 @@ UNSUPPORTED_TYPES = {
 }
 
 
+def light_group(owner, view_layer) -> str:
+    """The light group of an object or a world. As in Cycles, one that the view layer does not have
+    is none: Blender keeps the names where groups are removed."""
+    return owner.lightgroup if owner.lightgroup in view_layer.lightgroups else ""
+
+
 def check_scene(depsgraph, log) -> None:
     """What concerns the whole scene or view layer."""
     render = depsgraph.scene_eval.render

@@ -4,7 +4,7 @@
 import bpy
 
 from .graph import read_graph
-from .visibility import LIGHT_RAYS
+from .visibility import LIGHT_RAYS, light_group
 
 
 def sync_world(builder, depsgraph, images, log) -> None:
@@ -24,7 +24,12 @@ def sync_world(builder, depsgraph, images, log) -> None:
         graph = background_graph(world.color)
     if getattr(getattr(world, "cycles", None), "max_bounces", 1024) < 1024:
         log.warning("the world's own limit of bounces is not supported yet", object=world.name)
-    builder.set_world(name=world.name, graph=graph, **seen_by_world(world))
+    builder.set_world(
+        name=world.name,
+        graph=graph,
+        light_group=light_group(world, layer),
+        **seen_by_world(world),
+    )
 
 
 def seen_by_world(world) -> dict:

@@ -3,9 +3,15 @@
 
 import bpy
 
-from . import data, diagnostics, engine_panels, material, scene
+from . import data, diagnostics, engine_panels, material, passes, scene
 
-CLASSES = (*diagnostics.CLASSES, *scene.CLASSES, *material.CLASSES, *data.CLASSES)
+CLASSES = (
+    *diagnostics.CLASSES,
+    *scene.CLASSES,
+    *passes.CLASSES,
+    *material.CLASSES,
+    *data.CLASSES,
+)
 
 
 def register():

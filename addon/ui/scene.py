@@ -3,7 +3,9 @@
 
 import bpy
 
+from ..sync.settings import merges
 from .engine_panels import JanusPanel
+from .passes import draw_problem
 
 
 class JANUS_RENDER_PT_sampling(JanusPanel, bpy.types.Panel):
@@ -60,18 +62,31 @@ class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
         janus = context.scene.janus
         column = self.column()
         column.prop(janus, "integrator")
+        column.prop(janus, "next_event")
         column = column.column()
         column.active = janus.integrator == "BDPT"
+        column.prop(janus, "connection_mode", text="Connections")
+        self._draw_counts(column.column(), janus)
+        column.prop(janus, "heuristic")
+        if janus.heuristic == "NONE":
+            column.prop(janus, "strategies", placeholder="All")
+            draw_problem(column, janus.strategies_message)
+        self.layout.operator("janus.render_strategies")
+
+    @staticmethod
+    def _draw_counts(column, janus):
+        column.active = janus.connection_mode == "CACHE"
         row = column.row()
         row.active = janus.heuristic == "BALANCE" and not janus.use_merging
         row.prop(janus, "adaptive_counts")
         column.prop(janus, "light_paths")
-        column.prop(janus, "connections")
-        column.prop(janus, "use_merging")
+        column.prop(janus, "connections", text="Connections per Vertex")
         row = column.row()
-        row.active = janus.use_merging
+        row.active = janus.heuristic != "NONE"
+        row.prop(janus, "use_merging")
+        row = column.row()
+        row.active = merges(janus)
         row.prop(janus, "merge_radius")
-        column.prop(janus, "heuristic")
 
 
 class JANUS_RENDER_PT_film(JanusPanel, bpy.types.Panel):

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "janus/image/exr.h"
 #include "janus/util/error.h"
@@ -36,9 +38,9 @@ py::str decode(const std::string& bytes) {
       PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "replace"));
 }
 
-void write(const std::string& path,
-           const py::array_t<float, py::array::c_style | py::array::forcecast>& pixels,
-           const Metadata& metadata) {
+using Pixels = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+Image make_image(const Pixels& pixels) {
   if (pixels.ndim() != 3 || (pixels.shape(2) != 3 && pixels.shape(2) != 4)) {
     throw py::value_error("pixels must have the shape [height, width, 4] or [height, width, 3]");
   }
@@ -49,8 +51,32 @@ void write(const std::string& path,
   Image image(static_cast<int>(pixels.shape(1)), static_cast<int>(pixels.shape(0)),
               static_cast<int>(pixels.shape(2)));
   std::copy_n(pixels.data(), image.pixels.size(), image.pixels.data());
+  return image;
+}
+
+void write(const std::string& path, const Pixels& pixels, const Metadata& metadata) {
+  const Image image = make_image(pixels);
   const py::gil_scoped_release released;
   write_exr(path, image, metadata);
+}
+
+void write_layers(const std::string& path,
+                  const std::vector<std::pair<std::string, Pixels>>& pictures,
+                  const Metadata& metadata) {
+  std::vector<ExrLayer> layers;
+  for (const auto& [name, pixels] : pictures) {
+    layers.push_back({name, make_image(pixels)});
+  }
+  const py::gil_scoped_release released;
+  write_exr(path, std::move(layers), metadata);
+}
+
+py::dict decode(const Metadata& metadata) {
+  py::dict result;
+  for (const auto& [name, value] : metadata) {
+    result[decode(name)] = decode(value);
+  }
+  return result;
 }
 
 py::tuple read(const std::string& path) {
@@ -59,15 +85,27 @@ py::tuple read(const std::string& path) {
     const py::gil_scoped_release released;
     *file = read_exr(path);
   }
-  py::dict metadata;
-  for (const auto& [name, value] : file->metadata) {
-    metadata[decode(name)] = decode(value);
-  }
+  const py::dict metadata = decode(file->metadata);
   const Image& image = file->image;
   const float* data = image.pixels.data();
   const py::ssize_t height = image.height, width = image.width;
   const py::capsule owner(file.release(), [](void* p) { delete static_cast<ExrFile*>(p); });
   return py::make_tuple(py::array_t<float>({height, width, py::ssize_t{4}}, data, owner), metadata);
+}
+
+py::tuple read_layers(const std::string& path) {
+  ExrLayers file;
+  {
+    const py::gil_scoped_release released;
+    file = read_exr_layers(path);
+  }
+  py::list layers;
+  for (const auto& [name, image] : file.layers) {
+    const py::ssize_t height = image.height, width = image.width, channels = image.channels;
+    layers.append(py::make_tuple(
+        decode(name), py::array_t<float>({height, width, channels}, image.pixels.data())));
+  }
+  return py::make_tuple(layers, decode(file.metadata));
 }
 
 }  // namespace
@@ -79,6 +117,10 @@ PYBIND11_MODULE(_exr, module, py::mod_gil_not_used()) {
   py::register_local_exception_translator(janus::translate);
   module.def("write", &janus::write, py::arg("path"), py::arg("pixels"), py::arg("metadata"),
              "Writes float32[H, W, 3 or 4], bottom row first, to the path (bytes).");
+  module.def("write_layers", &janus::write_layers, py::arg("path"), py::arg("layers"),
+             py::arg("metadata"), "The same for (name, pixels) of several pictures of one size.");
+  module.def("read_layers", &janus::read_layers, py::arg("path"),
+             "([(name, float32[H, W, 3 or 4] bottom row first)], metadata) of all that is RGB.");
   module.def("read", &janus::read, py::arg("path"),
              "(float32[H, W, 4] bottom row first, metadata) of the file at the path (bytes).");
 }

@@ -13,7 +13,19 @@ SCENES = ROOT / "scenes"
 
 FILTERS = ("blackman-harris", "gaussian", "box")
 INTEGRATORS = ("bdpt", "pt", "lt")
+CONNECTION_MODES = ("cache", "classic")
+HEURISTICS = ("balance", "power", "none")
 FORMATS = (".png", ".exr")
+JANUS_ONLY = (
+    "integrator",
+    "capture",
+    "no_next_event",
+    "connection_mode",
+    "heuristic",
+    "strategy",
+    "strategies",
+    "passes",
+)
 
 
 def scene_names() -> list[str]:
@@ -44,13 +56,17 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     options.output = Path(options.output).resolve() if options.output else default
     if options.output.suffix.lower() not in FORMATS:
         parser.error(f"--output must end in {' or '.join(FORMATS)}, not '{options.output.name}'")
-    for key in ("stats", "capture", "save"):
+    if options.strategy:
+        options.heuristic = options.heuristic or "none"
+        if options.heuristic != "none":
+            parser.error("--strategy chooses strategies without weights: --heuristic none")
+    for key in ("stats", "capture", "save", "strategies"):
         if getattr(options, key):
             setattr(options, key, Path(getattr(options, key)).resolve())
     if options.engine != "janus":
-        for key in ("integrator", "capture"):
+        for key in JANUS_ONLY:
             if getattr(options, key):
-                parser.error(f"--{key} is for the engine janus")
+                parser.error(f"--{key.replace('_', '-')} is for the engine janus")
     return options
 
 
@@ -84,12 +100,56 @@ def _parser() -> argparse.ArgumentParser:
         help="stop after T seconds of rendering (0: no limit); without --samples, only then",
     )
     add("--integrator", choices=INTEGRATORS, help="default: bdpt")
+    add(
+        "--no-next-event",
+        action="store_true",
+        help="paths must hit lights, and light paths the camera's aperture, by chance",
+    )
+    add("--connection-mode", choices=CONNECTION_MODES, help="bdpt: light vertex cache, or pairs")
+    add("--heuristic", choices=HEURISTICS, help="bdpt: weights; none: the mean of the strategies")
+    add(
+        "--strategy",
+        metavar="'S,T ...'",
+        help="bdpt, without weights: only these, S vertices from the light and T from the camera, "
+        "* for any, such as '0,* 1,2'",
+    )
     add("--max-bounces", type=_at_least(int, 0), metavar="N")
     add("--filter", choices=FILTERS, help="pixel filter")
     add("--resolution", type=_resolution, metavar="WxH", help="in pixels, such as 640x400")
     add("--threads", type=_at_least(int, 0), metavar="N", help="0: all")
     add("--seed", type=_at_least(int, 0), metavar="N")
     add("--frame", type=int, metavar="N", help="frame of the animation")
+    add(
+        "--pass",
+        dest="passes",
+        action="append",
+        type=_named_expression,
+        default=[],
+        metavar="NAME=EXPRESSION",
+        help="also render the light of certain paths, such as Caustics='LS+DE' (repeatable): with "
+        "a .png, OUTPUT_NAME.png for each; with an .exr, OUTPUT_passes.exr with all passes of the "
+        "scene as layers",
+    )
+    add(
+        "--strategies",
+        metavar="DIR",
+        help="bdpt: also write what each strategy finds, with its weight and alone: DIR/"
+        "strategies.png, a labelled contact sheet, and DIR/strategies.exr with a layer for each",
+    )
+    add(
+        "--strategies-length",
+        type=_from_to(int, 1, 16),
+        default=5,
+        metavar="N",
+        help="edges of the longest paths that are shown (default: 5)",
+    )
+    add(
+        "--strategies-exposure",
+        type=float,
+        default=0.0,
+        metavar="EV",
+        help="stops by which the contact sheet is brightened, which it then says (default: 0)",
+    )
     add("--stats", metavar="FILE", help="write a JSON file with samples, seconds, rays, findings")
     add("--capture", metavar="FILE", help="save the scene for `python -m janus_core` (.npz)")
     add("--save", metavar="FILE", help="save the scene as a .blend, as it is rendered")
@@ -116,6 +176,24 @@ def _at_least(kind, lowest):
 
     convert.__name__ = kind.__name__  # for argparse's message
     return convert
+
+
+def _from_to(kind, lowest, highest):
+    def convert(text: str):
+        value = kind(text)
+        if not lowest <= value <= highest:
+            raise argparse.ArgumentTypeError(f"must be from {lowest} to {highest}")
+        return value
+
+    convert.__name__ = kind.__name__
+    return convert
+
+
+def _named_expression(text: str) -> tuple[str, str]:
+    name, equals, expression = text.partition("=")
+    if not name or not equals:
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=EXPRESSION, such as Sharp=LS+DE")
+    return name, expression
 
 
 def _resolution(text: str) -> tuple[int, int]:

@@ -15,7 +15,7 @@ import time
 import bpy
 
 from scenes.driver import addon as addons
-from scenes.driver import picture, setup
+from scenes.driver import passes, picture, setup
 from scenes.driver.progress import Progress
 from scenes.driver.setup import Problem, one_line
 
@@ -33,6 +33,8 @@ def run(options: argparse.Namespace) -> int:
                 addon = addons.load()
             scene = setup.open_scene(options)
             setup.apply(scene, options)
+            if addon:
+                passes.prepare(scene, options, addon)
         if options.save:
             with _quiet():
                 bpy.ops.wm.save_as_mainfile(
@@ -92,12 +94,15 @@ def _render(scene: bpy.types.Scene, options: argparse.Namespace, addon) -> int:
     with _quiet():
         try:
             picture.save(scene, options.output)
+            more = passes.save(scene, options, addon) if addon else []
         except (RuntimeError, OSError) as error:
             raise Problem(f"cannot write {options.output}: {one_line(error)}") from error
     print(
         f"{options.output}  ({stats['samples']} samples in {stats['seconds']:.1f} s, "
         f"set-up {stats['setup_seconds']:.1f} s)"
     )
+    for path in more:
+        print(path)
     return INTERRUPTED if interrupted else OK
 
 

@@ -71,6 +71,10 @@ def _apply_janus(scene: bpy.types.Scene, options: argparse.Namespace) -> None:
         "integrator": options.integrator and options.integrator.upper(),
         "pixel_filter_type": filter_name(options),
         "seed": options.seed,
+        "next_event": False if options.no_next_event else None,
+        "connection_mode": options.connection_mode and options.connection_mode.upper(),
+        "heuristic": options.heuristic and options.heuristic.upper(),
+        "strategies": options.strategy,
         "capture_path": options.capture and str(options.capture),
     }
     for name, value in given.items():

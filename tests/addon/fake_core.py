@@ -73,6 +73,9 @@ class FakeCore:
     class Cancelled(RuntimeError):
         pass
 
+    class SceneError(RuntimeError):
+        pass
+
     def __init__(self):
         self.builder = None
         self.settings = None
@@ -80,6 +83,16 @@ class FakeCore:
         self.diagnostics = []
         self.color = (0.25, 0.5, 0.75, 1.0)
         self.script = lambda session: None  # may raise, cancel, count up session.samples
+
+    @staticmethod
+    def check_expression(text):
+        """Knows nothing of the grammar, but the commonest mistake."""
+        return "" if text.startswith(("L", "B")) else f"'{text}' does not begin with a light"
+
+    @staticmethod
+    def check_strategies(text):
+        pairs = text.split()
+        return "" if all("," in pair for pair in pairs) else f"'{text}' is no list of pairs s,t"
 
     def SceneBuilder(self):  # noqa: N802
         self.builder = Recorder(self.diagnostics)
@@ -126,12 +139,21 @@ class FakeSession:
             "state": "rendering",
         }
 
+    def passes(self):
+        settings = self.settings
+        names = ["Combined", *(name for name, _ in settings.expressions), *settings.light_passes]
+        for edges in range(1, settings.strategy_images + 1):
+            for s in range(edges + 1):
+                names += [f"s{s} t{edges + 1 - s} {kind}" for kind in ("weighted", "alone")]
+        return names + ["longer weighted"] * (settings.strategy_images > 0)
+
     def snapshot(self, name):
-        assert name == "Combined"
+        """Combined has the colour of the core, pass number n (from 1) has n in each channel."""
+        number = self.passes().index(name)
         self.snapshots += 1
         x0, y0, x1, y1 = self.settings.crop or (0, 0, self.settings.width, self.settings.height)
-        pixels = np.empty((y1 - y0, x1 - x0, 4), dtype=np.float32)
-        pixels[:] = self.core.color if self.samples else 0.0
+        pixels = np.empty((y1 - y0, x1 - x0, 3 if number else 4), dtype=np.float32)
+        pixels[:] = (number or self.core.color) if self.samples else 0.0
         return pixels
 
     def stats(self):

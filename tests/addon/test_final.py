@@ -70,6 +70,7 @@ def test_settings_reach_the_core(scene, fake_core):
     janus.integrator, janus.heuristic = "PT", "POWER"
     janus.light_paths, janus.connections = 0.5, 2.0
     janus.use_merging, janus.merge_radius = True, 0.25
+    janus.next_event = False
     janus.pixel_filter_type, janus.filter_width = "GAUSSIAN", 2.0
     janus.film_exposure, janus.film_transparent_glass = 1.5, True
     janus.film_transparent_roughness = 0.25
@@ -101,6 +102,12 @@ def test_settings_reach_the_core(scene, fake_core):
         "film_transparent": True,
         "film_transparent_glass": True,
         "film_transparent_roughness": 0.25,
+        "next_event": False,
+        "connection_mode": "CACHE",
+        "strategies": "",
+        "expressions": [],
+        "light_passes": [],
+        "strategy_images": 0,
     }
 
 

@@ -65,8 +65,20 @@ def test_holdouts(tmp_path):
     assert not held[4:-4, 4:-4].any()  # the border sees the edge of the floor
 
 
-def test_captures_of_version_3(captured, tmp_path):
-    """From before holdouts and the film's settings."""
+PASSES = (
+    "next_event",
+    "connection_mode",
+    "strategies",
+    "expressions",
+    "light_passes",
+    "strategy_images",
+)
+FILM = ("film_exposure", "film_transparent_glass", "film_transparent_roughness")
+
+
+# 3: from before holdouts and the film's settings, 5: before passes and strategies.
+@pytest.mark.parametrize("version, without", [(3, (*FILM, *PASSES)), (5, PASSES)])
+def test_older_captures(captured, tmp_path, version, without):
     path, expected = captured
     old = tmp_path / "old.npz"
     with zipfile.ZipFile(path) as new, zipfile.ZipFile(old, "w") as archive:
@@ -74,9 +86,9 @@ def test_captures_of_version_3(captured, tmp_path):
             content = new.read(name)
             if name == "scene.json":
                 description = json.loads(content)
-                description["version"] = 3
-                for setting in ("exposure", "transparent_glass", "transparent_roughness"):
-                    del description["settings"][f"film_{setting}"]
+                description["version"] = version
+                for setting in without:
+                    del description["settings"][setting]
                 content = json.dumps(description)
             archive.writestr(name, content)
     builder, settings = capture.load(old)
@@ -148,6 +160,36 @@ def test_command_options(captured, tmp_path):
     assert exr.read(out)[0].shape == (8, 16, 4)
     settings = json.loads(stats.read_text())["settings"]
     assert settings["samples"] == 2 and settings["integrator"] == "pt" and settings["seed"] == 9
+
+
+def test_passes_and_strategies_are_captured(tmp_path):
+    builder = capture.CapturingBuilder()
+    fill(builder)
+    settings = janus_core.RenderSettings(
+        **SETTINGS,
+        next_event=False,
+        heuristic="NONE",
+        connection_mode="CLASSIC",
+        strategies="0,* 1,2",
+        expressions=[("Sharp", "LS+DE"), ("All", "L.*E")],
+        light_passes=["DiffDir"],
+    )
+    builder.save(tmp_path / "scene.npz", settings)
+    assert capture.load(tmp_path / "scene.npz")[1] == settings
+
+
+def test_command_writes_passes(captured, tmp_path):
+    path, expected = captured
+    out = tmp_path / "out.exr"
+    done = command(path, "-o", out, "--pass", "Everything=L.*E", "--pass", "Sharp=LS+DE")
+    assert done.returncode == 0, done.stderr
+    layers, _ = exr.read_layers(out)
+    assert set(layers) == {"Combined", "Everything", "Sharp"}
+    assert np.array_equal(layers["Combined"], expected)
+    assert np.allclose(layers["Everything"], expected[:, :, :3], rtol=1e-4, atol=1e-5)
+    wrong = command(path, "-o", out, "--pass", "Sharp=LS+(E")
+    assert wrong.returncode == 2 and "Sharp" in wrong.stderr and "Traceback" not in wrong.stderr
+    assert command(path, "-o", out, "--pass", "LS+DE").returncode == 2
 
 
 def test_exit_codes(captured, tmp_path):

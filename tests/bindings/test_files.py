@@ -33,6 +33,29 @@ def test_exr_without_alpha_reads_as_opaque(tmp_path):
     assert np.all(again[:, :, 3] == 1.0)
 
 
+def test_exr_layers_keep_names_and_every_bit(tmp_path):
+    layers = {"Combined": PIXELS, "Diffuse Inter-Reflections": -PIXELS[:, :, :3], "a b": PIXELS + 1}
+    exr.write_layers(tmp_path / "a.exr", layers, {"janus/seed": "7"})
+    again, metadata = exr.read_layers(tmp_path / "a.exr")
+    assert metadata == {"janus/seed": "7"} and set(again) == set(layers)
+    for name, pixels in layers.items():
+        assert np.array_equal(again[name], pixels)
+    assert np.array_equal(exr.read(tmp_path / "a.exr")[0], PIXELS)  # for who knows no layers
+
+
+@pytest.mark.parametrize("second", [PIXELS[1:, :, :3], PIXELS[:, :, :2], None])
+def test_exr_refuses_layers_that_do_not_fit(tmp_path, second):
+    layers = {"Combined": PIXELS, "b": second} if second is not None else {}
+    with pytest.raises((ValueError, janus_core.IoError)):
+        exr.write_layers(tmp_path / "a.exr", layers)
+    assert not list(tmp_path.iterdir())
+
+
+def test_exr_refuses_two_layers_of_a_name(tmp_path):
+    with pytest.raises(janus_core.IoError, match="two layers"):
+        exr.write_layers(tmp_path / "a.exr", {"Combined": PIXELS, "": PIXELS})
+
+
 @pytest.mark.parametrize("shape", [(4,), (3, 3), (3, 3, 2), (0, 3, 4)])
 def test_exr_refuses_other_shapes(tmp_path, shape):
     with pytest.raises((ValueError, janus_core.IoError)):

@@ -6,6 +6,8 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fcntl.h>
@@ -19,6 +21,7 @@
 #include <cstring>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "janus/util/error.h"
 
@@ -107,11 +110,26 @@ class OutputStream final : public Imf::OStream {
   uint64_t position_ = 0, size_ = 0;
 };
 
-Imf::Header make_header(const std::string& path, const Image& image, const Metadata& metadata) {
-  Imf::Header header(image.width, image.height);
+std::string channel_name(const std::string& layer, const char* channel) {
+  return layer.empty() ? channel : layer + "." + channel;
+}
+
+Imf::Header make_header(const std::string& path, const std::vector<ExrLayer>& layers,
+                        const Metadata& metadata) {
+  const Image& first = layers.front().image;
+  Imf::Header header(first.width, first.height);
   header.compression() = Imf::ZIP_COMPRESSION;
-  for (int c = 0; c < image.channels; ++c) {
-    header.channels().insert(kRgba[c], Imf::Channel(Imf::FLOAT));
+  for (const ExrLayer& layer : layers) {
+    for (int c = 0; c < layer.image.channels; ++c) {
+      const std::string name = channel_name(layer.name, kRgba[c]);
+      if (name.size() > 255 || name.find('\0') != std::string::npos) {
+        fail_to_write(path, "the name of a layer must have at most 253 bytes, none of them 0");
+      }
+      if (header.channels().findChannel(name)) {
+        fail_to_write(path, "there are two layers '" + layer.name + "'");
+      }
+      header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    }
   }
   // Attributes that tell how the file is laid out; the others of them are in the header already.
   static const std::set<std::string> layout = {"chunkCount", "tiles", "type", "version"};
@@ -128,37 +146,55 @@ Imf::Header make_header(const std::string& path, const Image& image, const Metad
 }
 
 // OpenEXR has the top row first.
-Image flipped(const Image& image) {
-  Image result = image;
-  const size_t row = static_cast<size_t>(image.width) * image.channels;
-  for (int y = 0; y < image.height; ++y) {
-    std::copy_n(image.pixels.data() + row * y, row,
-                result.pixels.data() + row * (image.height - 1 - y));
+void flip(Image& image) {
+  const auto row = static_cast<ptrdiff_t>(image.width) * image.channels;
+  for (int y = 0; y < image.height / 2; ++y) {
+    const auto low = image.pixels.begin() + row * y;
+    std::swap_ranges(low, low + row, image.pixels.begin() + row * (image.height - 1 - y));
   }
-  return result;
 }
 
 // (x0, y0): where the file's coordinates of the pixels start.
-Imf::FrameBuffer frame_buffer(Image& image, const ChannelNames& names, int x0, int y0) {
+void insert_slices(Imf::FrameBuffer& buffer, Image& image, const std::string& layer,
+                   const ChannelNames& names, int x0, int y0) {
   const size_t pixel = sizeof(float) * image.channels, row = pixel * image.width;
-  Imf::FrameBuffer buffer;
   const ptrdiff_t start = x0 * static_cast<ptrdiff_t>(pixel) + y0 * static_cast<ptrdiff_t>(row);
   for (int c = 0; c < image.channels; ++c) {
     if (names[c]) {
       char* base = reinterpret_cast<char*>(image.pixels.data() + c) - start;
-      buffer.insert(names[c], Imf::Slice(Imf::FLOAT, base, pixel, row, 1, 1, c == 3 ? 1.0 : 0.0));
+      buffer.insert(channel_name(layer, names[c]),
+                    Imf::Slice(Imf::FLOAT, base, pixel, row, 1, 1, c == 3 ? 1.0 : 0.0));
     }
   }
-  return buffer;
 }
 
-void write_pixels(OutputStream& stream, const Imf::Header& header, Image& rows) {
+void write_pixels(OutputStream& stream, const Imf::Header& header, std::vector<ExrLayer>& layers) {
   Imf::OutputFile file(stream, header);
-  file.setFrameBuffer(frame_buffer(rows, kRgba, 0, 0));
+  Imf::FrameBuffer buffer;
+  for (ExrLayer& layer : layers) {
+    insert_slices(buffer, layer.image, layer.name, kRgba, 0, 0);
+  }
+  file.setFrameBuffer(buffer);
   // In parts, so that a full disk is noticed long before the end of a large picture.
   constexpr int kRows = 256;
-  for (int y = 0; y < rows.height && stream.error() == 0; y += kRows) {
-    file.writePixels(std::min(kRows, rows.height - y));
+  const int height = layers.front().image.height;
+  for (int y = 0; y < height && stream.error() == 0; y += kRows) {
+    file.writePixels(std::min(kRows, height - y));
+  }
+}
+
+void check_layers(const std::string& path, const std::vector<ExrLayer>& layers) {
+  if (layers.empty()) {
+    fail_to_write(path, "there is no layer to write");
+  }
+  const Image& first = layers.front().image;
+  for (const auto& [name, image] : layers) {
+    if (image.width < 1 || image.height < 1 || (image.channels != 3 && image.channels != 4)) {
+      fail_to_write(path, "an image has at least 1x1 pixels of 3 or 4 channels");
+    }
+    if (image.width != first.width || image.height != first.height) {
+      fail_to_write(path, "layer '" + name + "' has another size than the first");
+    }
   }
 }
 
@@ -174,9 +210,11 @@ std::string temporary_name(const std::string& path) {
 }  // namespace
 
 void write_exr(const std::string& path, const Image& image, const Metadata& metadata) {
-  if (image.width < 1 || image.height < 1 || (image.channels != 3 && image.channels != 4)) {
-    fail_to_write(path, "an image has at least 1x1 pixels of 3 or 4 channels");
-  }
+  write_exr(path, std::vector<ExrLayer>{{"", image}}, metadata);
+}
+
+void write_exr(const std::string& path, std::vector<ExrLayer> layers, const Metadata& metadata) {
+  check_layers(path, layers);
   // A symbolic link stays; what it points to is replaced.
   std::error_code error;
   std::string target = path;
@@ -194,12 +232,14 @@ void write_exr(const std::string& path, const Image& image, const Metadata& meta
   const std::string temporary = temporary_name(target);
   bool created = false;
   try {
-    const Imf::Header header = make_header(path, image, metadata);
-    Image rows = flipped(image);
+    const Imf::Header header = make_header(path, layers, metadata);
+    for (ExrLayer& layer : layers) {
+      flip(layer.image);
+    }
     OutputStream stream(temporary, exists ? status.st_mode & 0777 : 0666, O_CREAT | O_EXCL);
     created = stream.error() == 0;
     if (created) {
-      write_pixels(stream, header, rows);
+      write_pixels(stream, header, layers);
     }
     if (const int failed = stream.close()) {
       fail_to_write(path, std::strerror(failed));
@@ -237,7 +277,7 @@ std::string channel_names(const Imf::ChannelList& channels) {
 
 // The image of the right size, before its pixels. A damaged header may ask for any size: one that
 // the file cannot hold at any compression is refused before memory is taken.
-Image make_image(const std::string& path, const Imath::Box2i& window) {
+Image make_image(const std::string& path, const Imath::Box2i& window, int channels) {
   constexpr int64_t kMaxSide = 1 << 16, kMaxCompression = 1 << 14;
   const int64_t width = int64_t{window.max.x} - window.min.x + 1;
   const int64_t height = int64_t{window.max.y} - window.min.y + 1;
@@ -248,12 +288,10 @@ Image make_image(const std::string& path, const Imath::Box2i& window) {
     fail_to_read(path, "its size of " + std::to_string(width) + "x" + std::to_string(height) +
                            " pixels cannot be right");
   }
-  return Image(static_cast<int>(width), static_cast<int>(height), 4);
+  return Image(static_cast<int>(width), static_cast<int>(height), channels);
 }
 
-}  // namespace
-
-ExrFile read_exr(const std::string& path) {
+void check_file(const std::string& path) {
   struct stat status{};
   if (::stat(path.c_str(), &status) != 0) {
     fail_to_read(path, std::strerror(errno));
@@ -261,6 +299,52 @@ ExrFile read_exr(const std::string& path) {
   if (!S_ISREG(status.st_mode)) {
     fail_to_read(path, "it is not a regular file");
   }
+}
+
+void refuse_subsampling(const std::string& path, const Imf::ChannelList& channels,
+                        const Imf::FrameBuffer& buffer) {
+  for (auto it = buffer.begin(); it != buffer.end(); ++it) {
+    const Imf::Channel* channel = channels.findChannel(it.name());
+    if (channel && (channel->xSampling != 1 || channel->ySampling != 1)) {
+      fail_to_read(path, "its channel " + std::string(it.name()) + " is subsampled");
+    }
+  }
+}
+
+Metadata read_metadata(const Imf::Header& header) {
+  Metadata metadata;
+  for (auto it = header.begin(); it != header.end(); ++it) {
+    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
+    if (text && std::strcmp(it.name(), "type") != 0) {  // OpenEXR adds the type of the layout
+      metadata[it.name()] = text->value();
+    }
+  }
+  return metadata;
+}
+
+// What has channels NAME.R, NAME.G and NAME.B (R, G and B: the empty name), with room for the
+// pixels.
+std::vector<ExrLayer> find_layers(const std::string& path, const Imf::Header& header) {
+  std::vector<ExrLayer> layers;
+  const Imf::ChannelList& channels = header.channels();
+  for (auto it = channels.begin(); it != channels.end(); ++it) {
+    const std::string channel = it.name();
+    const size_t dot = channel.rfind('.');
+    const std::string name = dot == std::string::npos ? "" : channel.substr(0, dot);
+    const auto has = [&](const char* letter) {
+      return channels.findChannel(channel_name(name, letter)) != nullptr;
+    };
+    if (channel == channel_name(name, "R") && has("G") && has("B")) {
+      layers.push_back({name, make_image(path, header.dataWindow(), has("A") ? 4 : 3)});
+    }
+  }
+  return layers;
+}
+
+}  // namespace
+
+ExrFile read_exr(const std::string& path) {
+  check_file(path);
   try {
     Imf::InputFile file(path.c_str());
     const Imf::Header& header = file.header();
@@ -272,15 +356,10 @@ ExrFile read_exr(const std::string& path) {
       fail_to_read(path, "it has no channels R, G and B, but: " + channel_names(channels));
     }
     const Imath::Box2i window = header.dataWindow();
-    ExrFile result{make_image(path, window), {}};
-    const Imf::FrameBuffer buffer =
-        frame_buffer(result.image, grey ? kGrey : kRgba, window.min.x, window.min.y);
-    for (auto it = buffer.begin(); it != buffer.end(); ++it) {
-      const Imf::Channel* channel = channels.findChannel(it.name());
-      if (channel && (channel->xSampling != 1 || channel->ySampling != 1)) {
-        fail_to_read(path, "its channel " + std::string(it.name()) + " is subsampled");
-      }
-    }
+    ExrFile result{make_image(path, window, 4), {}};
+    Imf::FrameBuffer buffer;
+    insert_slices(buffer, result.image, "", grey ? kGrey : kRgba, window.min.x, window.min.y);
+    refuse_subsampling(path, channels, buffer);
     file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);
     if (grey) {
@@ -288,11 +367,37 @@ ExrFile read_exr(const std::string& path) {
         result.image.pixels[i + 1] = result.image.pixels[i + 2] = result.image.pixels[i];
       }
     }
-    result.image = flipped(result.image);
-    for (auto it = header.begin(); it != header.end(); ++it) {
-      const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
-      if (text && std::strcmp(it.name(), "type") != 0) {  // OpenEXR adds the type of the layout
-        result.metadata[it.name()] = text->value();
+    flip(result.image);
+    result.metadata = read_metadata(header);
+    return result;
+  } catch (const IoError&) {
+    throw;
+  } catch (const std::exception& e) {
+    fail_to_read(path, e.what());
+  }
+}
+
+ExrLayers read_exr_layers(const std::string& path) {
+  check_file(path);
+  try {
+    Imf::MultiPartInputFile file(path.c_str());
+    ExrLayers result;
+    result.metadata = read_metadata(file.header(0));
+    for (int number = 0; number < file.parts(); ++number) {
+      const Imf::Header& header = file.header(number);
+      const Imath::Box2i window = header.dataWindow();
+      std::vector<ExrLayer> layers = find_layers(path, header);
+      Imf::FrameBuffer buffer;
+      for (ExrLayer& layer : layers) {
+        insert_slices(buffer, layer.image, layer.name, kRgba, window.min.x, window.min.y);
+      }
+      refuse_subsampling(path, header.channels(), buffer);
+      Imf::InputPart part(file, number);
+      part.setFrameBuffer(buffer);
+      part.readPixels(window.min.y, window.max.y);
+      for (ExrLayer& layer : layers) {
+        flip(layer.image);
+        result.layers.push_back(std::move(layer));
       }
     }
     return result;

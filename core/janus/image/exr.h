@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "janus/image/image.h"
 
@@ -18,6 +19,17 @@ using Metadata = std::map<std::string, std::string>;
 // naming the file.
 void write_exr(const std::string& path, const Image& image, const Metadata& metadata = {});
 
+// One of several pictures in a file. Its channels are called NAME.R and so on; R and so on where
+// the name is empty.
+struct ExrLayer {
+  std::string name;
+  Image image;  // 3 channels: R, G, B; 4: R, G, B, A
+};
+
+// The same for layers of one size, whose names differ.
+void write_exr(const std::string& path, std::vector<ExrLayer> layers,
+               const Metadata& metadata = {});
+
 struct ExrFile {
   Image image;        // 4 channels: R, G, B, A
   Metadata metadata;  // the string attributes
@@ -26,5 +38,13 @@ struct ExrFile {
 // Reads the R, G, B and A channels of the data window as float; half and integer channels are
 // converted, A is 1 where there is none, a lone Y is grey. Throws IoError naming the file.
 ExrFile read_exr(const std::string& path);
+
+struct ExrLayers {
+  std::vector<ExrLayer> layers;  // of 3 channels, or 4 where there is an A; by name in each part
+  Metadata metadata;             // the string attributes of the first part
+};
+
+// Reads everything that has channels R, G and B, in all parts of the file.
+ExrLayers read_exr_layers(const std::string& path);
 
 }  // namespace janus

@@ -24,7 +24,7 @@ from . import Error, IoError, RenderSettings, Scene, SceneBuilder, __version__
 __all__ = ["CapturingBuilder", "load"]
 
 FORMAT = "janus scene"
-VERSION = 5  # raised when an older reader could not understand a newer file
+VERSION = 6  # raised when an older reader could not understand a newer file
 
 _KINDS = (
     "mesh",
@@ -232,6 +232,8 @@ def _build(
     settings = dict(description["settings"])
     if settings.get("crop") is not None:
         settings["crop"] = tuple(settings["crop"])
+    if "expressions" in settings:
+        settings["expressions"] = [tuple(pair) for pair in settings["expressions"]]
     return builder, RenderSettings(**settings)
 
 

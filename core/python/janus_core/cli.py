@@ -27,6 +27,7 @@ from . import (
     SceneError,
     __version__,
     capture,
+    check_expression,
     exr,
 )
 from ._progress import ProgressBar
@@ -96,6 +97,16 @@ def _parser() -> argparse.ArgumentParser:
         help="in pixels, such as 640x360; the shape of the picture stays",
     )
     add("--filter", choices=FILTERS, help="pixel filter")
+    add(
+        "--pass",
+        dest="passes",
+        action="append",
+        type=_named_expression,
+        default=[],
+        metavar="NAME=EXPRESSION",
+        help="also write the light of certain paths, such as Caustics='LS+DE', as channels "
+        "NAME.R, NAME.G, NAME.B of the output (repeatable)",
+    )
     add("--stats", metavar="F.json", help="write samples, seconds, rays, findings, settings")
     add("-q", "--quiet", action="store_true", help="say nothing but errors")
     add("--version", action="version", version=f"janus_core {__version__}")
@@ -173,7 +184,8 @@ def _write(
         "janus/seed": str(settings.seed),
         "janus/seconds": f"{stats['seconds']:.3f}",
     }
-    exr.write(options.output, session.snapshot("Combined"), stamp)
+    layers = {name: session.snapshot(name) for name in session.passes()}
+    exr.write_layers(options.output, layers, stamp)
     if options.stats:
         with open(options.stats, "w", encoding="utf-8") as file:
             json.dump(stats, file, indent=2)
@@ -195,6 +207,8 @@ def _changed(settings: dict[str, Any], options: argparse.Namespace) -> dict[str,
         settings["seconds"] = 0.0
     if options.seconds and options.samples is None:
         settings["samples"] = FOREVER
+    named = dict(settings["expressions"]) | dict(options.passes)
+    settings["expressions"] = list(named.items())
     if options.filter:
         settings["filter"] = options.filter.upper().replace("-", "_")
     if options.resolution:
@@ -274,6 +288,15 @@ def _resolution(text: str) -> tuple[int, int]:
     if not match or not all(0 < int(side) <= 65536 for side in match.groups()):
         raise argparse.ArgumentTypeError(f"'{text}' is not WxH, such as 640x360")
     return int(match[1]), int(match[2])
+
+
+def _named_expression(text: str) -> tuple[str, str]:
+    name, equals, expression = text.partition("=")
+    if not equals or not name or "." in name:
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=EXPRESSION, such as Caustics=LS+DE")
+    if problem := check_expression(expression):
+        raise argparse.ArgumentTypeError(f"{text}: {problem}")
+    return name, expression
 
 
 def _exr_name(text: str) -> str:

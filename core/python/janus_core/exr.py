@@ -13,7 +13,9 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["read", "require", "write"]
+__all__ = ["read", "read_layers", "require", "write", "write_layers"]
+
+COMBINED = "Combined"  # the picture itself, among its passes
 
 try:
     from . import _exr
@@ -45,10 +47,25 @@ def write(
     Raises IoError, which names the file; ValueError for pixels of another shape.
     """
     require()
-    entries = dict(metadata or {})
-    if not all(isinstance(text, str) for entry in entries.items() for text in entry):
-        raise TypeError("metadata must map strings to strings")
-    _exr.write(os.fsencode(path), np.asarray(pixels, dtype=np.float32), entries)
+    _exr.write(os.fsencode(path), np.asarray(pixels, dtype=np.float32), _strings(metadata))
+
+
+def write_layers(
+    path: str | os.PathLike[str],
+    layers: Mapping[str, npt.ArrayLike],
+    metadata: Mapping[str, str] | None = None,
+) -> None:
+    """The same for several pictures of one size, by name: a multilayer file, as Blender reads it.
+
+    The channels of a picture are called NAME.R and so on, those of "Combined" R and so on, so that
+    programs that know no layers show that one.
+    """
+    require()
+    pictures = [
+        ("" if name == COMBINED else name, np.asarray(pixels, dtype=np.float32))
+        for name, pixels in layers.items()
+    ]
+    _exr.write_layers(os.fsencode(path), pictures, _strings(metadata))
 
 
 def read(path: str | os.PathLike[str]) -> tuple[npt.NDArray[np.float32], dict[str, str]]:
@@ -59,3 +76,23 @@ def read(path: str | os.PathLike[str]) -> tuple[npt.NDArray[np.float32], dict[st
     """
     require()
     return _exr.read(os.fsencode(path))
+
+
+def read_layers(
+    path: str | os.PathLike[str],
+) -> tuple[dict[str, npt.NDArray[np.float32]], dict[str, str]]:
+    """(pictures by name, metadata) of a file: all that has channels R, G and B, whoever wrote it.
+
+    Each is float32[height, width, 3], or 4 with alpha, bottom row first. Plain R, G, B is
+    "Combined"; what Blender writes is called LAYER.PASS. Raises IoError, which names the file.
+    """
+    require()
+    layers, metadata = _exr.read_layers(os.fsencode(path))
+    return {name or COMBINED: pixels for name, pixels in layers}, metadata
+
+
+def _strings(metadata: Mapping[str, str] | None) -> dict[str, str]:
+    entries = dict(metadata or {})
+    if not all(isinstance(text, str) for entry in entries.items() for text in entry):
+        raise TypeError("metadata must map strings to strings")
+    return entries

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The passes that a view layer asks for: what Blender calls them, and the core is asked for."""
+
+from dataclasses import dataclass
+
+import bpy
+
+from .. import bridge
+from ..report import RenderRefused
+
+MAX_EXPRESSIONS = 64  # of the core
+MAX_NAME_BYTES = 63  # of a pass in Blender
+
+# What switches it on in a view layer; Blender's name since 5.0; the one before, which is the core's
+LIGHT_PASSES = (
+    ("use_pass_diffuse_direct", "Diffuse Direct", "DiffDir"),
+    ("use_pass_diffuse_indirect", "Diffuse Indirect", "DiffInd"),
+    ("use_pass_diffuse_color", "Diffuse Color", "DiffCol"),
+    ("use_pass_glossy_direct", "Glossy Direct", "GlossDir"),
+    ("use_pass_glossy_indirect", "Glossy Indirect", "GlossInd"),
+    ("use_pass_glossy_color", "Glossy Color", "GlossCol"),
+    ("use_pass_transmission_direct", "Transmission Direct", "TransDir"),
+    ("use_pass_transmission_indirect", "Transmission Indirect", "TransInd"),
+    ("use_pass_transmission_color", "Transmission Color", "TransCol"),
+    ("use_pass_emit", "Emission", "Emit"),
+    ("use_pass_environment", "Environment", "Env"),
+)
+
+# What switches it on in view_layer.janus, the name of the pass, its light path expression
+READY_MADE = (
+    ("use_pass_direct", "Direct", "L.E"),
+    ("use_pass_indirect", "Indirect", "L..+E"),
+    ("use_pass_interreflections", "Diffuse Inter-Reflections", "LDD+E"),
+    ("use_pass_caustics", "Caustics", "L(S|G)+D.*E"),
+)
+
+# Name of a scene -> number of edges of the longest paths of which its next renders make an image
+# for each technique. No property: it must not be saved with the file.
+strategy_lengths: dict[str, int] = {}
+
+
+@dataclass(frozen=True)
+class Pass:
+    """A pass with three channels, all but Combined."""
+
+    name: str  # in Blender's render result
+    key: str  # for RenderSession.snapshot()
+
+
+def requested(scene, layer) -> list[Pass]:
+    """All passes of a render of the view layer but Combined, in the order of the menus."""
+    names = [name for name, _ in expressions(layer)]
+    names += strategy_names(strategy_length(scene))
+    return [*light_passes(layer), *(Pass(name, name) for name in names)]
+
+
+def arguments(scene, layer) -> dict:
+    """What the passes are to RenderSettings. Raises RenderRefused for what makes no pass."""
+    for item in layer.janus.expressions:
+        if item.enabled and (problem := name_problem(layer, item)):
+            raise RenderRefused(f"Light path expression '{item.name}': {problem}")
+    wanted = expressions(layer)
+    if len(wanted) > MAX_EXPRESSIONS:
+        raise RenderRefused(
+            f"View layer '{layer.name}' has {len(wanted)} passes that are light path expressions, "
+            f"and there can be {MAX_EXPRESSIONS}"
+        )
+    for name, text in wanted:
+        if problem := bridge.core().check_expression(text):
+            raise RenderRefused(f"Light path expression '{name}': {problem}")
+    return {
+        "expressions": wanted,
+        "light_passes": [found.key for found in light_passes(layer)],
+        "strategy_images": strategy_length(scene),
+    }
+
+
+def light_passes(layer) -> list[Pass]:
+    """Those that Cycles has, too."""
+    renamed = bpy.app.version >= (5, 0, 0)
+    return [
+        Pass(name if renamed else key, key)
+        for toggle, name, key in LIGHT_PASSES
+        if getattr(layer, toggle)
+    ]
+
+
+def expressions(layer) -> list[tuple[str, str]]:
+    """(name of the pass, expression): ready-made ones, light groups, the user's."""
+    found = [(name, text) for toggle, name, text in READY_MADE if getattr(layer.janus, toggle)]
+    found += [(f"Combined_{group.name}", f"L{{{group.name}}}.*E") for group in layer.lightgroups]
+    found += [
+        (item.name, item.expression)
+        for item in layer.janus.expressions
+        if item.enabled and not name_problem(layer, item)
+    ]
+    return found
+
+
+def name_problem(layer, item) -> str:
+    """Why an expression cannot have its name as a pass; empty if it can."""
+    if not item.name:
+        return "The pass needs a name"
+    if "." in item.name:
+        return "The name of a pass must have no dot, OpenEXR files divide names there"
+    if len(item.name.encode()) > MAX_NAME_BYTES:
+        return "The name of the pass is too long"
+    taken = {"Combined", *(name for names in LIGHT_PASSES for name in names[1:])}
+    taken |= {name for _, name, _ in READY_MADE}
+    taken |= {f"Combined_{group.name}" for group in layer.lightgroups}
+    for other in layer.janus.expressions:
+        if other == item:
+            break
+        taken.add(other.name)
+    return f"There is another pass '{item.name}'" if item.name in taken else ""
+
+
+def strategy_length(scene) -> int:
+    return strategy_lengths.get(scene.name_full, 0)
+
+
+def strategies(length: int) -> list[tuple[int, int]]:
+    """The techniques (s, t) of all paths of up to `length` edges, shortest paths first.
+
+    A path of k edges has k + 1 vertices: s are made from the light and t from the camera, where
+    one, the camera's own, always is.
+    """
+    return [(s, edges + 1 - s) for edges in range(1, length + 1) for s in range(edges + 1)]
+
+
+def strategy_name(s: int, t: int, kind: str) -> str:
+    """`kind` is "weighted" or "alone", which is without weight."""
+    return f"s{s} t{t} {kind}"
+
+
+def strategy_names(length: int) -> list[str]:
+    if length == 0:
+        return []
+    names = [
+        strategy_name(s, t, kind) for kind in ("weighted", "alone") for s, t in strategies(length)
+    ]
+    return [*names, LONGER]
+
+
+LONGER = "longer weighted"  # all paths of more edges than those that have images

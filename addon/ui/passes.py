@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which passes a view layer renders, and the light groups of what shines."""
+
+import bpy
+
+from ..sync.passes import name_problem
+from .diagnostics import draw_text
+from .engine_panels import JanusPanel
+
+
+def draw_problem(layout, text: str) -> None:
+    """What is wrong with the field above; nothing if nothing is."""
+    if text:
+        column = layout.column()
+        column.alert = True
+        draw_text(column, text, "ERROR")
+
+
+class JANUS_VIEWLAYER_PT_passes(JanusPanel, bpy.types.Panel):
+    bl_label = "Passes"
+    bl_context = "view_layer"
+
+    def draw(self, context):
+        pass
+
+
+class PassesPanel(JanusPanel):
+    bl_context = "view_layer"
+    bl_parent_id = "JANUS_VIEWLAYER_PT_passes"
+
+
+class JANUS_VIEWLAYER_PT_passes_light(PassesPanel, bpy.types.Panel):
+    bl_label = "Light"
+
+    def draw(self, context):
+        layer = context.view_layer
+        layout = self.column()
+        for kind in ("diffuse", "glossy", "transmission"):
+            column = layout.column(heading=kind.capitalize(), align=True)
+            for part in ("direct", "indirect", "color"):
+                column.prop(layer, f"use_pass_{kind}_{part}", text=part.capitalize())
+        column = layout.column(heading="All Surfaces", align=True)
+        column.prop(layer.janus, "use_pass_direct")
+        column.prop(layer.janus, "use_pass_indirect")
+        column.prop(layer.janus, "use_pass_interreflections")
+        column.prop(layer.janus, "use_pass_caustics")
+        column = layout.column(heading="Other", align=True)
+        column.prop(layer, "use_pass_emit", text="Emission")
+        column.prop(layer, "use_pass_environment")
+
+
+class JANUS_VIEWLAYER_PT_passes_lightgroups(PassesPanel, bpy.types.Panel):
+    bl_label = "Light Groups"
+
+    def draw(self, context):
+        layer = context.view_layer
+        row = self.layout.row()
+        row.template_list(
+            "UI_UL_list",
+            "lightgroups",
+            layer,
+            "lightgroups",
+            layer,
+            "active_lightgroup_index",
+            rows=3,
+        )
+        column = row.column(align=True)
+        column.operator("scene.view_layer_add_lightgroup", icon="ADD", text="")
+        column.operator("scene.view_layer_remove_lightgroup", icon="REMOVE", text="")
+        column.separator()
+        column.menu("VIEWLAYER_MT_lightgroup_sync", icon="DOWNARROW_HLT", text="")
+
+
+class JANUS_UL_light_path_expressions(bpy.types.UIList):
+    def draw_item(self, context, layout, _data, item, _icon, _active, _property, _index=0, _flag=0):
+        wrong = bool(item.message or name_problem(context.view_layer, item))
+        row = layout.row()
+        row.alert = wrong
+        row.active = item.enabled
+        row.prop(item, "name", text="", emboss=False, icon="ERROR" if wrong else "NONE")
+        row.prop(item, "expression", text="", emboss=False)
+        row.prop(item, "enabled", text="")
+
+
+class JANUS_VIEWLAYER_PT_passes_expressions(PassesPanel, bpy.types.Panel):
+    bl_label = "Light Path Expressions"
+
+    def draw(self, context):
+        layer = context.view_layer
+        janus = layer.janus
+        row = self.layout.row()
+        row.template_list(
+            "JANUS_UL_light_path_expressions",
+            "",
+            janus,
+            "expressions",
+            janus,
+            "active_expression",
+            rows=3,
+        )
+        column = row.column(align=True)
+        column.operator("janus.add_light_path_expression", icon="ADD", text="")
+        column.operator("janus.remove_light_path_expression", icon="REMOVE", text="")
+        if janus.active_expression < len(janus.expressions):
+            item = janus.expressions[janus.active_expression]
+            column = self.column()
+            column.prop(item, "name")
+            draw_problem(column, name_problem(layer, item))
+            column.prop(item, "expression")
+            draw_problem(column, item.message)
+
+
+def draw_light_group(layout, owner, view_layer) -> None:
+    row = layout.row(align=True)
+    row.prop_search(
+        owner,
+        "lightgroup",
+        view_layer,
+        "lightgroups",
+        text="Light Group",
+        results_are_suggestions=True,
+    )
+    column = row.column(align=True)
+    column.enabled = bool(owner.lightgroup) and owner.lightgroup not in view_layer.lightgroups
+    add = column.operator("scene.view_layer_add_lightgroup", icon="ADD", text="")
+    add.name = owner.lightgroup
+
+
+class JANUS_OBJECT_PT_lightgroup(JanusPanel, bpy.types.Panel):
+    bl_label = "Light Group"
+    bl_parent_id = "OBJECT_PT_shading"
+    bl_context = "object"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        draw_light_group(self.column(), context.object, context.view_layer)
+
+
+class JANUS_WORLD_PT_lightgroup(JanusPanel, bpy.types.Panel):
+    bl_label = "Light Group"
+    bl_context = "world"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.world
+
+    def draw(self, context):
+        draw_light_group(self.column(), context.world, context.view_layer)
+
+
+CLASSES = (
+    JANUS_VIEWLAYER_PT_passes,
+    JANUS_VIEWLAYER_PT_passes_light,
+    JANUS_VIEWLAYER_PT_passes_lightgroups,
+    JANUS_UL_light_path_expressions,
+    JANUS_VIEWLAYER_PT_passes_expressions,
+    JANUS_OBJECT_PT_lightgroup,
+    JANUS_WORLD_PT_lightgroup,
+)

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panels of passes and strategies, drawn into a layout that checks what it is given."""
+
+from types import SimpleNamespace
+
+import bpy
+import pytest
+from conftest import part
+
+
+class Layout:
+    """Records what is drawn. All of its parts share one list; each has its own alert."""
+
+    def __init__(self, drawn=None):
+        self.drawn = [] if drawn is None else drawn
+        self.alert = False
+
+    def _part(self, **_):
+        layout = Layout(self.drawn)
+        layout.alert = self.alert
+        return layout
+
+    row = column = box = _part
+
+    def prop(self, data, name, **_):
+        assert name in data.bl_rna.properties
+        self.drawn.append(name)
+
+    def prop_search(self, data, name, search_data, search_name, **_):
+        assert name in data.bl_rna.properties and search_name in search_data.bl_rna.properties
+        self.drawn.append(name)
+
+    def template_list(self, kind, _id, data, name, active_data, active_name, **_):
+        assert getattr(bpy.types, kind, None)
+        assert name in data.bl_rna.properties and active_name in active_data.bl_rna.properties
+        self.drawn.append(name)
+
+    def operator(self, name, **_):
+        module, operator = name.split(".")
+        assert operator in dir(getattr(bpy.ops, module))
+        self.drawn.append(name)
+        return SimpleNamespace()
+
+    def menu(self, name, **_):
+        assert getattr(bpy.types, name, None)
+
+    def label(self, text, icon="NONE"):
+        self.drawn.append((text, icon, self.alert))
+
+    def separator(self):
+        pass
+
+
+def draw(name, **context):
+    """What the panel draws: names of properties and operators, (text, icon, alert) of labels."""
+    panel = getattr(bpy.types, name)
+    stub = SimpleNamespace(layout=Layout())
+    stub.column = lambda: panel.column(stub)
+    for helper in ("_draw_counts",):
+        if hasattr(panel, helper):
+            setattr(stub, helper, getattr(panel, helper))
+    scene = bpy.context.scene
+    context = {"scene": scene, "view_layer": scene.view_layers[0], "engine": "JANUS"} | context
+    panel.draw(stub, SimpleNamespace(**context))
+    return stub.layout.drawn
+
+
+def test_light_passes_are_laid_out_as_in_cycles(scene):
+    drawn = draw("JANUS_VIEWLAYER_PT_passes_light")
+    table = part("sync.passes")
+    assert [name for name in drawn if name not in dir(scene.view_layers[0].janus)] == [
+        toggle for toggle, _, _ in table.LIGHT_PASSES
+    ]
+    assert {toggle for toggle, _, _ in table.READY_MADE} < set(drawn)
+
+
+def test_light_groups(scene):
+    assert "lightgroups" in draw("JANUS_VIEWLAYER_PT_passes_lightgroups")
+    world = bpy.data.worlds.new("Sky")
+    assert "lightgroup" in draw("JANUS_OBJECT_PT_lightgroup", object=scene.camera)
+    assert "lightgroup" in draw("JANUS_WORLD_PT_lightgroup", world=world)
+    parent = bpy.types.JANUS_OBJECT_PT_lightgroup.bl_parent_id
+    assert "JANUS" in getattr(bpy.types, parent).COMPAT_ENGINES
+
+
+def test_a_bad_expression_is_said_below_its_field(scene, fake_core):
+    name = "JANUS_VIEWLAYER_PT_passes_expressions"
+    assert "expression" not in draw(name)
+    bpy.ops.janus.add_light_path_expression()
+    item = scene.view_layers[0].janus.expressions[0]
+    assert draw(name)[-2:] == ["name", "expression"]
+    item.expression = "DE"
+    message = ("'DE' does not begin with a light", "ERROR", True)
+    assert draw(name)[-2:] == ["expression", message]
+    item.name = ""
+    assert ("The pass needs a name", "ERROR", True) in draw(name)
+
+
+def test_the_list_marks_bad_expressions(scene, fake_core):
+    bpy.ops.janus.add_light_path_expression()
+    layer = scene.view_layers[0]
+    item = layer.janus.expressions[0]
+    icons = []
+    for expression in ("LDE", "DE"):
+        item.expression = expression
+        layout = Layout()
+        layout.prop = lambda data, name, icon="NONE", **_: icons.append(icon)
+        layout.row = lambda layout=layout: layout
+        bpy.types.JANUS_UL_light_path_expressions.draw_item(
+            None, SimpleNamespace(view_layer=layer), layout, None, item, 0, None, "", 0, 0
+        )
+        assert layout.alert == (expression == "DE")
+    assert icons == ["NONE"] * 3 + ["ERROR"] + ["NONE"] * 2
+
+
+def test_strategies_are_shown_without_weights_only(scene, fake_core):
+    name = "JANUS_RENDER_PT_bidirectional"
+    drawn = draw(name)
+    assert "strategies" not in drawn
+    assert {"next_event", "connection_mode", "janus.render_strategies"} < set(drawn)
+    scene.janus.heuristic = "NONE"
+    scene.janus.strategies = "all of them"
+    message = ("'all of them' is no list of pairs s,t", "ERROR", True)
+    drawn = draw(name)
+    assert drawn[drawn.index("strategies") + 1] == message
+
+
+def test_adding_and_removing_expressions(scene, fake_core):
+    janus = scene.view_layers[0].janus
+    for _ in range(3):
+        bpy.ops.janus.add_light_path_expression()
+    names = [item.name for item in janus.expressions]
+    assert len(set(names)) == 3 and janus.active_expression == 2
+    bpy.ops.janus.remove_light_path_expression()
+    assert [item.name for item in janus.expressions] == names[:2]
+    assert janus.active_expression == 1
+    bpy.ops.render.render()
+    assert [name for name, _ in fake_core.settings.expressions] == names[:2]
+    bpy.ops.janus.remove_light_path_expression()
+    bpy.ops.janus.remove_light_path_expression()
+    assert not bpy.ops.janus.remove_light_path_expression.poll()
+
+
+def test_expressions_are_saved_with_the_file(scene, fake_core, tmp_path):
+    janus = scene.view_layers[0].janus
+    janus.use_pass_caustics = True
+    bpy.ops.janus.add_light_path_expression()
+    janus.expressions[0].expression = "DE"
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
+    janus = bpy.context.scene.view_layers[0].janus
+    assert janus.use_pass_caustics and janus.expressions[0].message
+    assert janus.expressions[0].expression == "DE"
+
+
+@pytest.mark.parametrize("engine, shown", [("JANUS", True), ("CYCLES", False)])
+def test_in_the_render_menu_of_janus(scene, engine, shown):
+    scene.render.engine = engine
+    layout = Layout()
+    menu = SimpleNamespace(layout=layout)
+    part("operators.strategies")._draw_in_menu(menu, SimpleNamespace(scene=scene))
+    assert ("janus.render_strategies" in layout.drawn) == shown
