@@ -13,7 +13,7 @@ namespace janus {
 
 namespace {
 
-constexpr size_t kMostStates = 2048;  // of a direction
+constexpr size_t kMostStates = 1024;  // of a direction
 
 // What a state is made of: a set of symbols, in order. The symbols of all expressions are in a row.
 using SymbolSet = std::vector<uint16_t>;
@@ -132,11 +132,18 @@ PathAutomaton::PathAutomaton(std::span<const Expression> expressions, const Scen
   }
   symbols_ = class_names.size() * kScatterEvents;
 
-  const auto matches = [&](size_t symbol, size_t input) {
+  std::vector<bool> matching(all.patterns.size() * symbols_);
+  for (size_t symbol = 0; symbol < all.patterns.size(); ++symbol) {
     const VertexPattern& pattern = all.patterns[symbol];
-    return pattern.kind == VertexPattern::Kind::Event &&
-           (pattern.events >> (input % kScatterEvents) & 1U) != 0 &&
-           (pattern.name.empty() || pattern.name == class_names[input / kScatterEvents]);
+    for (size_t input = 0; input < symbols_; ++input) {
+      matching[symbol * symbols_ + input] =
+          pattern.kind == VertexPattern::Kind::Event &&
+          (pattern.events >> (input % kScatterEvents) & 1U) != 0 &&
+          (pattern.name.empty() || pattern.name == class_names[input / kScatterEvents]);
+    }
+  }
+  const auto matches = [&](size_t symbol, size_t input) {
+    return matching[symbol * symbols_ + input];
   };
 
   States light_side;
@@ -172,17 +179,20 @@ PathAutomaton::PathAutomaton(std::span<const Expression> expressions, const Scen
     return to;
   });
 
+  // States of the two sides meet in the symbols that both have.
   camera_states_ = camera_side.size();
+  completed_.resize(light_side.size() * camera_states_);
+  std::vector<std::vector<uint32_t>> having(all.patterns.size());
+  for (size_t camera = 0; camera < camera_states_; ++camera) {
+    for (const uint16_t symbol : camera_side.set(camera)) {
+      having[symbol].push_back(static_cast<uint32_t>(camera));
+    }
+  }
   for (size_t light = 0; light < light_side.size(); ++light) {
-    for (size_t camera = 0; camera < camera_states_; ++camera) {
-      SymbolSet both;
-      std::ranges::set_intersection(light_side.set(light), camera_side.set(camera),
-                                    std::back_inserter(both));
-      ExpressionMask mask = 0;
-      for (const uint16_t i : both) {
-        mask |= ExpressionMask{1} << all.expression[i];
+    for (const uint16_t symbol : light_side.set(light)) {
+      for (const uint32_t camera : having[symbol]) {
+        completed_[light * camera_states_ + camera] |= ExpressionMask{1} << all.expression[symbol];
       }
-      completed_.push_back(mask);
     }
   }
   unknown_names_.assign(unknown.begin(), unknown.end());

@@ -209,8 +209,12 @@ TEST(VertexGrid, FindsWhatALoopFinds) {
     for (int n = 0; n < 100; ++n) {
       const vec3 p(random.in(-1.1f, 1.1f), random.in(-1.1f, 1.1f), 0.0f);
       std::multiset<const LightVertex*> found, expected;
-      grid.for_each_near(p, [&](const LightVertex& v) { found.insert(&v); });
-      cache.for_each([&](const LightVertex& v) {
+      grid.for_each_near(p, [&](const LightVertex& v, const CacheBlock& block) {
+        found.insert(&v);
+        EXPECT_GE(&v, block.vertices.data());
+        EXPECT_LT(&v, block.vertices.data() + block.vertices.size());
+      });
+      cache.for_each([&](const LightVertex& v, uint32_t) {
         if (v.edges > 1 && length2(v.p - p) <= radius * radius) {
           expected.insert(&v);
         }
