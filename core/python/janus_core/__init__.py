@@ -32,6 +32,8 @@ from ._core import (
     SceneError,
     __version__,
     build_info,
+    check_expression,
+    check_strategies,
     node_types,
 )
 
@@ -47,5 +49,7 @@ __all__ = [
     "SceneError",
     "__version__",
     "build_info",
+    "check_expression",
+    "check_strategies",
     "node_types",
 ]

@@ -156,13 +156,14 @@ class SceneBuilder:
         object_index: float = 0.0,
         random: float = 0.0,
         attributes: Mapping[str, Sequence[float]] = ...,
+        light_group: str = "",
     ) -> None:
         """Places the mesh with the key `mesh` in the world.
 
         transform: float[4, 4], object to world. materials: a key for each slot, or None for the
         default surface. visible_*: the rays that meet it, as in Blender. holdout: it
         leaves a hole where the camera sees it. attributes: four numbers under each key that
-        set_material() gives of an instance.
+        set_material() gives of an instance. light_group: of what it emits, for expressions.
         """
     def set_light(
         self,
@@ -192,6 +193,7 @@ class SceneBuilder:
         cast_shadow: bool = True,
         max_bounces: int = 1024,
         graph: Mapping[str, Any] | None = None,
+        light_group: str = "",
     ) -> None:
         """A light object, which shines along its -z.
 
@@ -211,6 +213,7 @@ class SceneBuilder:
         visible_diffuse: bool = True,
         visible_glossy: bool = True,
         visible_transmission: bool = True,
+        light_group: str = "",
     ) -> None:
         """The background, as for set_material; graph None: black.
 
@@ -278,13 +281,19 @@ class RenderSettings:
         connections: float = 1.0,
         merge_radius: float = 0.0,
         adaptive_counts: bool = False,
-        heuristic: Literal["BALANCE", "POWER"] = "BALANCE",
+        heuristic: Literal["BALANCE", "POWER", "NONE"] = "BALANCE",
         film_exposure: float = 1.0,
         film_transparent: bool = False,
         film_transparent_glass: bool = False,
         film_transparent_roughness: float = 0.1,
         roulette: bool = True,
         check_weights: bool = False,
+        next_event: bool = True,
+        connection_mode: Literal["CACHE", "CLASSIC"] = "CACHE",
+        strategies: str = "",
+        expressions: Sequence[tuple[str, str]] = ...,
+        light_passes: Sequence[str] = ...,
+        strategy_images: int = 0,
     ) -> None: ...
     def to_dict(self) -> dict[str, Any]:
         """The keyword arguments that make these settings."""
@@ -373,6 +382,27 @@ class RenderSettings:
     @property
     def check_weights(self) -> bool:
         """Debug: compares the MIS weights of sampled paths with their definition; slow."""
+    @property
+    def next_event(self) -> bool:
+        """False leaves next event estimation out: pt finds lights by hitting them alone, and lt a
+        camera with a lens (t=0)."""
+    @property
+    def connection_mode(self) -> str:
+        """bdpt: CACHE, light vertices for all pixels, or CLASSIC, a light path for each camera
+        path, of which every vertex is joined with every vertex."""
+    @property
+    def strategies(self) -> str:
+        """With the heuristic NONE, the strategies that render, as '0,* 2,3'; empty: all."""
+    @property
+    def expressions(self) -> list[tuple[str, str]]:
+        """Name and light path expression of each additional pass."""
+    @property
+    def light_passes(self) -> list[str]:
+        """Cycles' passes of light, by Blender's names: DiffDir, DiffInd, DiffCol, the same of Gloss
+        and Trans, Emit, Env."""
+    @property
+    def strategy_images(self) -> int:
+        """bdpt: each strategy of paths of up to so many edges has passes; 0: none."""
 
 @final
 class RenderSession:
@@ -391,9 +421,16 @@ class RenderSession:
         first pass) and state."""
     def cancel(self) -> None:
         """Asks the render to stop and returns. Whole passes are kept."""
-    def snapshot(self, name: Literal["Combined"] = "Combined") -> npt.NDArray[np.float32]:
+    def snapshot(self, name: str = "Combined") -> npt.NDArray[np.float32]:
         """The mean of the whole passes so far: float32[height, width, 4] of the crop, scene linear,
-        premultiplied alpha, bottom row first. A new array each time."""
+        premultiplied alpha, bottom row first; [height, width, 3] of other passes than Combined. A
+        new array each time. Raises ValueError for a name that is not in passes()."""
+    def passes(self) -> list[str]:
+        """The names that snapshot() knows: Combined, the expressions', Cycles' passes of light, and
+        the strategies': 's1 t2 weighted', 's1 t2 alone' (without weight), 'longer weighted'."""
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """What of the settings has no effect in this scene."""
     def finish(self) -> None:
         """Waits for the end and raises what went wrong on the render threads, if anything."""
     def stats(self) -> Stats:
@@ -401,6 +438,12 @@ class RenderSession:
         came before they were given up), light_vertices (kept in the cache) and light_cache_bytes
         (its largest size), dropped (values that were not finite), weight_error (with check_weights:
         the largest difference from the definition)."""
+
+def check_expression(text: str) -> str:
+    """What is wrong with a light path expression, for the user; empty: nothing."""
+
+def check_strategies(text: str) -> str:
+    """What is wrong with a choice of strategies, for the user; empty: nothing."""
 
 def build_info() -> dict[str, Any]:
     """Versions of the core, of Embree and of the tools that it was built with."""
