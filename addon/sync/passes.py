@@ -106,7 +106,7 @@ def name_problem(layer, item) -> str:
     if len(item.name.encode()) > MAX_NAME_BYTES:
         return "The name of the pass is too long"
     taken = {"Combined", *(name for names in LIGHT_PASSES for name in names[1:])}
-    taken |= {name for _, name, _ in READY_MADE}
+    taken |= {name for toggle, name, _ in READY_MADE if getattr(layer.janus, toggle)}
     taken |= {f"Combined_{group.name}" for group in layer.lightgroups}
     for other in layer.janus.expressions:
         if other == item:
@@ -123,9 +123,13 @@ def strategies(length: int) -> list[tuple[int, int]]:
     """The techniques (s, t) of all paths of up to `length` edges, shortest paths first.
 
     A path of k edges has k + 1 vertices: s are made from the light and t from the camera, where
-    one, the camera's own, always is.
+    one, the camera's own, always is. Light straight into the camera is found by s=0 alone.
     """
-    return [(s, edges + 1 - s) for edges in range(1, length + 1) for s in range(edges + 1)]
+    return [
+        (s, edges + 1 - s)
+        for edges in range(1, length + 1)
+        for s in range(edges + 1 if edges > 1 else 1)
+    ]
 
 
 def strategy_name(s: int, t: int, kind: str) -> str:

@@ -134,7 +134,7 @@ def test_a_bad_expression_ends_the_render_and_is_named(scene, layer, fake_core):
     [
         ("", "needs a name"),
         ("Combined", "another pass"),
-        ("Caustics", "another pass"),
+        ("Direct", "another pass"),
         ("Twice", "another pass"),
         ("Combined_Key", "another pass"),
         ("Diffuse Direct", "another pass"),
@@ -144,7 +144,9 @@ def test_a_bad_expression_ends_the_render_and_is_named(scene, layer, fake_core):
 )
 def test_names_that_a_pass_cannot_have(scene, layer, fake_core, name, reason):
     layer.lightgroups.add(name="Key")
+    layer.janus.use_pass_direct = True
     add_expression(layer, "Twice", "LE")
+    add_expression(layer, "Caustics", "LS+DE")  # free as long as the ready-made one is off
     add_expression(layer, name, "LDE")
     with pytest.raises(RuntimeError, match=reason):
         bpy.ops.render.render()
