@@ -8,7 +8,8 @@ starting Blender takes longer than such a picture. A module of cases has
 - CASES, the names, and SEEDS, how many pictures by Cycles;
 - build(case) -> scene: the scene in an empty file, with Cycles' settings and number of samples;
 - WARNED, if it is there: the cases of which Janus may warn;
-- for_janus(scene), if it is there: what is different for Janus.
+- for_janus(scene), if it is there: what is different for Janus;
+- save(scene, path), if it is there: how Cycles' picture is saved.
 
 Janus gets its settings as its users do: by copying them from Cycles.
 """
@@ -40,7 +41,7 @@ def main(cases: ModuleType, folder: Path, names: list[str]) -> int:
         for seed in range(1, cases.SEEDS + 1):
             scene.cycles.seed = seed
             bpy.ops.render.render()
-            picture.save(scene, folder / f"{name}-{seed}.exr")
+            getattr(cases, "save", picture.save)(scene, folder / f"{name}-{seed}.exr")
         scene.render.engine = addons.ENGINE
         getattr(cases, "for_janus", lambda scene: None)(scene)
         with bpy.context.temp_override(scene=scene):

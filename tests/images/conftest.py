@@ -38,7 +38,8 @@ def driven(*arguments: object) -> str:
 
 
 class Captured:
-    """A captured scene, committed once; `render` makes one picture of it, [H, W, 4]."""
+    """A captured scene, committed once; `render` makes one picture of it, [H, W, 4], and
+    `render_passes` all that its settings ask for."""
 
     def __init__(self, path: Path):
         import janus_core
@@ -51,13 +52,16 @@ class Captured:
         self.scene = builder.commit()
 
     def render(self, **changes: object) -> np.ndarray:
+        return self.render_passes(**changes)["Combined"]
+
+    def render_passes(self, **changes: object) -> dict[str, np.ndarray]:
         settings = self._core.RenderSettings(**{**self.settings.to_dict(), **changes})
         session = self._core.RenderSession(self.scene, settings)
         session.start()
         while not session.wait(1.0):
             pass
         session.finish()
-        return session.snapshot("Combined")
+        return {name: session.snapshot(name) for name in session.passes()}
 
     def series(self, integrator: str, samples: int, seeds: int, **changes: object) -> list:
         """Independent pictures, made once; no two integrators ever share a seed.
@@ -105,10 +109,12 @@ def made_by_both(cases: ModuleType, folder: Path, timeout: float = 600.0) -> Cal
     done = subprocess.run(command, capture_output=True, text=True, timeout=timeout)
     assert done.returncode == 0, done.stdout + done.stderr
 
+    read = exr.read_layers if hasattr(cases, "save") else exr.read
+
     @functools.lru_cache(maxsize=2)
-    def get(case: str) -> tuple[Captured, list[np.ndarray]]:
+    def get(case: str) -> tuple[Captured, list]:
         seeds = range(1, cases.SEEDS + 1)
-        cycles = [exr.read(folder / f"{case}-{seed}.exr")[0] for seed in seeds]
+        cycles = [read(folder / f"{case}-{seed}.exr")[0] for seed in seeds]
         return Captured(folder / f"{case}.npz"), cycles
 
     return get

@@ -52,7 +52,9 @@ def block_means(image: np.ndarray, size: int, mask: np.ndarray | None = None) ->
     return np.array(means).reshape(-1, 3)
 
 
-def welch(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def welch(
+    a: np.ndarray, b: np.ndarray, rounding: float = 1e-6
+) -> tuple[np.ndarray, np.ndarray]:
     """(t, two-sided p) of Welch's test for equal means; axis 0 runs over the seeds.
 
     Where neither side scatters at all (both black, say) p is 1 if they are equal, else 0.
@@ -63,14 +65,14 @@ def welch(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     scatter = va + vb
     scale = np.maximum(np.abs(a).mean(axis=0), np.abs(b).mean(axis=0))
     # Rounding in the mean of constants is no scatter.
-    still = scatter <= (1e-6 * scale) ** 2
+    still = scatter <= (rounding * scale) ** 2
     with np.errstate(divide="ignore", invalid="ignore"):
         t = np.where(still, 0.0, difference / np.sqrt(scatter))
         freedom = scatter**2 / (va**2 / (n - 1) + vb**2 / (m - 1))
     p = np.ones(np.shape(t))
     for index in np.ndindex(p.shape):
         if still[index]:
-            p[index] = float(abs(difference[index]) <= 1e-5 * scale[index])
+            p[index] = float(abs(difference[index]) <= 10.0 * rounding * scale[index])
         else:
             p[index] = student_p(float(t[index]), float(freedom[index]))
     return t, p
@@ -176,13 +178,15 @@ def compare(
     alpha: float = ALPHA,
     noisy: float | None = None,
     dark: float = 1e-30,
+    rounding: float = 1e-6,
 ) -> Comparison:
     """Compares the expectations of two sets of pictures, one picture per seed, [H, W, 3 or 4].
 
     Tests the mean over each block (all channels together) and of each channel over the whole
     picture. The seeds of all pictures must be different and the pictures of one set alike. Blocks
     whose relative standard error in `b` is above `noisy` are not tested: their means are far from
-    normal. The differences of blocks darker than `dark` are relative to that.
+    normal. The differences of blocks darker than `dark` are relative to that. Scatter of up to
+    `rounding`, relative, is none.
     """
     means_a = np.array([block_means(image, block, mask) for image in a])
     means_b = np.array([block_means(image, block, mask) for image in b])
@@ -196,7 +200,7 @@ def compare(
         tested = spread <= noisy * blocks_b.mean(axis=0)
     series_a = np.concatenate([blocks_a[:, tested], whole_a], axis=1)
     series_b = np.concatenate([blocks_b[:, tested], whole_b], axis=1)
-    t, p = welch(series_a, series_b)
+    t, p = welch(series_a, series_b, rounding)
     worst = int(p.argmin())
     names = [f"block {i}" for i in np.flatnonzero(tested)] + ["all red", "all green", "all blue"]
     level = np.maximum(blocks_b.mean(axis=0), dark)

@@ -66,9 +66,9 @@ void RenderSession::check_lights() {
     }
   }
   if (hittable == 0 && !scene_->lights.empty()) {
-    throw SceneError("settings", "next_event",
+    throw SceneError("settings", settings_.strategies ? "strategies" : "next_event",
                      "all lights of the scene are points, which no path hits (s=0): give them a "
-                     "radius or use next event estimation");
+                     "radius, or use next event estimation (s=1)");
   }
 }
 

@@ -69,6 +69,10 @@ float glass_albedo_average(float rough, float eta) {
               index_place(eta));
 }
 
+float schlick_reflectance(float rough, float mu) {
+  return read(kSchlickPosition, Place<kCoarse>(rough), Place<kCoarse>(mu));
+}
+
 float dielectric_reflectance(float rough, float mu, float eta) {
   const float position =
       read(kFresnelPosition, Place<kCoarse>(rough), Place<kCoarse>(mu), index_place(eta));

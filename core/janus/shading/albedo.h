@@ -20,4 +20,7 @@ float glass_albedo_average(float rough, float eta);
 // Reflectance of a rough dielectric relative to one without masking: the mean Fresnel term.
 float dielectric_reflectance(float rough, float mu, float eta);
 
+// The mean of Schlick's (1 - cos)^5, likewise.
+float schlick_reflectance(float rough, float mu);
+
 }  // namespace janus

@@ -121,8 +121,13 @@ struct GlassEvents {
   }
 };
 
-// Cycles' energy scale of Multiscatter GGX, from the camera side.
-Rgb energy_scale(const Lobe& lobe, float cos_o, float eta) {
+// Cycles' Multiscatter GGX, from the camera side: the share of light that facets scatter at once,
+// and the colour of what bounces on.
+struct Multiscatter {
+  float albedo;
+  Rgb bounces;
+};
+Multiscatter multiscatter(const Lobe& lobe, float cos_o, float eta) {
   const float rough = std::sqrt(lobe.alpha);
   float albedo;
   Rgb bounces = lobe.color;
@@ -137,6 +142,10 @@ Rgb energy_scale(const Lobe& lobe, float cos_o, float eta) {
                                  reflection_albedo_average(rough));
     }
   }
+  return {albedo, bounces};
+}
+Rgb energy_scale(const Lobe& lobe, float cos_o, float eta) {
+  const auto [albedo, bounces] = multiscatter(lobe, cos_o, eta);
   return 1.0f + bounces * (1.0f / albedo - 1.0f);
 }
 
@@ -370,6 +379,14 @@ float layer_transmittance(const Lobe& lobe, float cos_o) {
     albedo *= single + specular_bounces(lobe.ior, rough) * (1.0f - single);
   }
   return std::clamp(1.0f - albedo, 0.0f, 1.0f);
+}
+
+Rgb multiscatter_color(const Lobe& lobe, float cos_o, float eta) {
+  if (!lobe.multiscatter) {
+    return Rgb(1.0f);
+  }
+  const auto [albedo, bounces] = multiscatter(lobe, cos_o, eta);
+  return albedo + bounces * (1.0f - albedo);
 }
 
 float specular_bounces(float eta, float rough) {

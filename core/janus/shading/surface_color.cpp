@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/shading/surface_color.h"
 
+#include "janus/shading/albedo.h"
 #include "janus/shading/fresnel.h"
 #include "janus/shading/scatter.h"
 
@@ -17,25 +18,34 @@ SurfaceColor surface_color(const BsdfView& bsdf, vec3 wo) {
       continue;
     }
     const float cos = dot(wo, valid_normal(n, ng, wo));
+    const float eta = back ? 1.0f / lobe.ior : lobe.ior;
+    const Rgb weight =
+        lobe.weight *
+        (lobe.type == LobeType::Specular ? Rgb(1.0f) : multiscatter_color(lobe, cos, eta));
     switch (lobe.type) {
       case LobeType::Metal:
-        color.glossy += lobe.weight * (lobe.color + (1.0f - lobe.color) * schlick(cos));
+        color.glossy +=
+            weight * (lobe.color + (1.0f - lobe.color) *
+                                       schlick_reflectance(std::sqrt(lobe.alpha), cos));
         break;
       case LobeType::Specular:
-        color.glossy += lobe.weight * (1.0f - layer_transmittance(lobe, cos));
+        color.glossy += weight * (1.0f - layer_transmittance(lobe, cos));
         break;
       case LobeType::Glass: {
-        const float reflected = fresnel_closure(cos, back ? 1.0f / lobe.ior : lobe.ior);
-        color.glossy +=
-            lobe.weight * reflected * (lobe.tinted_reflection ? lobe.color : Rgb(1.0f));
-        color.transmission += lobe.weight * (1.0f - reflected) * lobe.color;
+        // As in Cycles, only the reflection of Principled's glass is that of a rough one.
+        const float smooth = fresnel_closure(cos, eta);
+        const float reflected = lobe.tinted_reflection || eta <= 1.0f
+                                    ? smooth
+                                    : dielectric_reflectance(std::sqrt(lobe.alpha), cos, eta);
+        color.glossy += weight * reflected * (lobe.tinted_reflection ? lobe.color : Rgb(1.0f));
+        color.transmission += weight * (1.0f - smooth) * lobe.color;
         break;
       }
       case LobeType::Refraction:
-        color.transmission += lobe.weight;
+        color.transmission += weight;
         break;
       default:
-        color.glossy += lobe.weight;
+        color.glossy += weight;
     }
   }
   return color;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The colours of a surface as Cycles' passes show them: what it scatters of light from everywhere,
-// by kind. An estimate for rough dielectrics and metals, which takes them for smooth, as there.
+// by kind. An estimate of the same roughness as there.
 #pragma once
 
 #include "janus/shading/bsdf.h"

@@ -140,12 +140,10 @@ double glass_albedo(double rough, double mu, double eta, int n) {
   });
 }
 
-// Where the mean dielectric Fresnel term of the visible normals stands between F0 (0) and 1 (1).
-double fresnel_position(double rough, double mu, double eta, int n) {
-  const double f0 = (eta - 1.0) / (eta + 1.0) * ((eta - 1.0) / (eta + 1.0));
-  const auto position = [&](double cos) {
-    return std::clamp((fresnel(cos, eta) - f0) / (1.0 - f0), 0.0, 1.0);
-  };
+// Where the mean Fresnel term of the visible normals stands between F0 (0) and 1 (1); that of one
+// facet is at `position(cos)`.
+template <class Position>
+double mean_position(double rough, double mu, int n, Position&& position) {
   const double alpha = rough * rough;
   if (smooth(alpha)) {
     return position(mu);
@@ -153,6 +151,13 @@ double fresnel_position(double rough, double mu, double eta, int n) {
   return over_normals(alpha, mu, n, [&](Vec w, Vec h) {
     const double cos = dot(w, h);
     return 2.0 * cos * h.z - w.z > 0.0 ? position(cos) : 0.0;
+  });
+}
+
+double fresnel_position(double rough, double mu, double eta, int n) {
+  const double f0 = (eta - 1.0) / (eta + 1.0) * ((eta - 1.0) / (eta + 1.0));
+  return mean_position(rough, mu, n, [&](double cos) {
+    return std::clamp((fresnel(cos, eta) - f0) / (1.0 - f0), 0.0, 1.0);
   });
 }
 
@@ -235,6 +240,10 @@ int main(int argc, char** argv) {
   }
   writer.table("kFresnelPosition", kCoarse, kCoarse, kCoarse, [&](int x, int y, int z) {
     return fresnel_position(rough(x, kCoarse), rough(y, kCoarse), index_at(z, kCoarse), 128);
+  });
+  writer.table("kSchlickPosition", kCoarse, kCoarse, 1, [&](int x, int y, int) {
+    return mean_position(rough(x, kCoarse), rough(y, kCoarse), 128,
+                         [](double cos) { return std::pow(1.0 - cos, 5.0); });
   });
   return std::fclose(file) == 0 ? 0 : 1;
 }
