@@ -56,8 +56,8 @@ def test_parity(pictures, name, way):
     found = compare(ours, theirs, block=8, noisy=0.03, dark=1e-3, rounding=3e-5)
     print(f"{name}, {way} against Cycles: {found}")
     if name.endswith("Color"):  # hardly any noise: differences of tables show
-        blocks = np.delete(found.blocks, found.left_out)
-        assert np.abs(blocks).max() <= 0.005, found
+        off = np.abs(np.delete(found.blocks, found.left_out))
+        assert (off <= 0.005 + 4.0 * np.delete(found.errors, found.left_out)).all(), found
     else:
         found.check(TOLERANCES.get(name, 0.006), ERRORS.get(name, 0.003))
 
