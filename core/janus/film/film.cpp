@@ -23,7 +23,10 @@ Film::Film(FilmRect rect, Filter filter, size_t layers)
 void Film::begin_pass() {
   std::fill(pass_.begin(), pass_.end(), vec4(0.0f));
   std::fill(pass_splats_.begin(), pass_splats_.end(), Rgb(0.0f));
-  std::fill(pass_layers_.begin(), pass_layers_.end(), Rgb(0.0f));
+  if (abandoned_) {  // otherwise they have been cleared
+    std::fill(pass_layers_.begin(), pass_layers_.end(), Rgb(0.0f));
+  }
+  abandoned_ = true;
 }
 
 template <class AnySplat, class Add>
@@ -79,9 +82,11 @@ void Film::end_pass(ThreadPool& pool) {
     }
     for (size_t i = row * w * layer_count_; i < (row + 1) * w * layer_count_; ++i) {
       sum_layers_[i] += glm::dvec3(pass_layers_[i]);
+      pass_layers_[i] = Rgb(0.0f);
     }
   });
   ++passes_;
+  abandoned_ = false;
 }
 
 Image Film::develop(float exposure) const {

@@ -240,8 +240,11 @@ class Bdpt final : public BidirectionalIntegrator {
             if (merges()) {
               context_.cancel.throw_if_cancelled();  // with a large radius there is much to do
               merging_.gather(v, mis_, settings_.walk, counters,
-                              [&](const LightVertex& l, const CacheBlock& block, const Merge& m) {
-                                gather_merge(l, block, v, m, sample, counters);
+                              [&](const LightVertex& l, const CacheBlock& block, const Merge& m,
+                                  const UnreadVertices& unread) {
+                                gather_merge(m, {l.edges + 1, v.edges}, sample, counters, [&] {
+                                  return SortedPath{block.states_of(l), states(v.trace), unread};
+                                });
                               });
             }
           }
@@ -291,12 +294,12 @@ class Bdpt final : public BidirectionalIntegrator {
     }
   }
 
-  void gather_merge(const LightVertex& l, const CacheBlock& block, const PathVertex& v,
-                    const Merge& merged, Sample& sample, Counters& counters) {
-    const int edges = l.edges + v.edges;
+  template <class Path>
+  void gather_merge(const Merge& merged, Technique technique, Sample& sample, Counters& counters,
+                    Path&& path) {
     const float w = merged.weight.value;
-    gather(settings_.clamp(merged.value * w, edges), w, {l.edges + 1, v.edges}, sample, counters,
-           [&] { return SortedPath{block.states_of(l), v.states.all(), merged.unread}; });
+    gather(settings_.clamp(merged.value * w, technique.edges()), w, technique, sample, counters,
+           path);
   }
 
   void check(vec2 raster, size_t index, int pass) {

@@ -60,10 +60,16 @@ class BidirectionalIntegrator : public PassIntegrator {
     }
     sample.sum += value;
     if (settings_.layers.any()) {
-      const std::span<Rgb> layers = context_.film.layers_at(sample.index);
-      settings_.layers.spread(value, weight, technique, settings_.walk.expressions, path(),
-                              [&](size_t layer, Rgb part) { layers[layer] += part; });
+      add_to_layers(value, weight, technique, path(), sample.index);
     }
+  }
+
+  // Out of the way of renders without layers.
+  [[gnu::noinline]] void add_to_layers(Rgb value, float weight, Technique technique,
+                                       const SortedPath& path, size_t index) {
+    const std::span<Rgb> layers = context_.film.layers_at(index);
+    settings_.layers.spread(value, weight, technique, settings_.walk.expressions, path,
+                            [&](size_t layer, Rgb part) { layers[layer] += part; });
   }
 
   // The light's side of paths that start with nothing but light `index`.
@@ -71,15 +77,24 @@ class BidirectionalIntegrator : public PassIntegrator {
     const PathAutomaton* automaton = settings_.walk.expressions;
     return {automaton ? automaton->from_light(index) : PathAutomaton::kDead, Rgb(1.0f)};
   }
+  static std::span<const WeightedState> states(const PathTrace* trace) {
+    return trace ? trace->states.all() : std::span<const WeightedState>();
+  }
+  // Where joins keep what is to be read, if anybody reads.
+  UnreadVertices* reads(UnreadVertices& unread) const {
+    return settings_.walk.expressions ? &unread : nullptr;
+  }
 
   // s=0. `share`: of what is found over deltas alone.
   Rgb gather_light(const LightFound& found, float share, Sample& sample, Counters& counters) {
     const Technique technique{0, found.edges + 1};
     const float w = weight(found.weight, technique);
     const Rgb value = settings_.clamp(found.beta * found.hit.radiance * w, found.edges) * share;
-    const WeightedState light = light_state(found.light);
-    gather(value, w, technique, sample, counters,
-           [&] { return SortedPath{{&light, 1}, found.states, found.unread}; });
+    WeightedState light;
+    gather(value, w, technique, sample, counters, [&] {
+      light = light_state(found.light);
+      return path_of_light(found, light);
+    });
     return value;
   }
 
@@ -89,7 +104,9 @@ class BidirectionalIntegrator : public PassIntegrator {
     if (!settings_.next_event || !context_.scene.light_sampler.illuminates()) {
       return Rgb(0.0f);
     }
-    const auto nee = connect_to_light(context_.scene, v, mis_, settings_.walk, sampler);
+    UnreadVertices unread;
+    const auto nee =
+        connect_to_light(context_.scene, v, mis_, settings_.walk, sampler, reads(unread));
     if (!nee) {
       return Rgb(0.0f);
     }
@@ -98,9 +115,11 @@ class BidirectionalIntegrator : public PassIntegrator {
     const float w = weight(c.weight, technique);
     const Rgb value = arriving(c.value * w, c, v.edges + 1, roulette, sampler,
                                counters.nee_samples, counters.nee_rays);
-    const WeightedState light = light_state(nee->light);
-    gather(value, w, technique, sample, counters,
-           [&] { return SortedPath{{&light, 1}, v.states.all(), c.unread}; });
+    WeightedState light;
+    gather(value, w, technique, sample, counters, [&] {
+      light = light_state(nee->light);
+      return SortedPath{{&light, 1}, states(v.trace), unread};
+    });
     found = c.weight;
     return value;
   }
@@ -116,8 +135,9 @@ class BidirectionalIntegrator : public PassIntegrator {
     }
     const BsdfView light_bsdf = block.bsdf(l);
     __builtin_prefetch(light_bsdf.lobes().data());
+    UnreadVertices unread;
     const auto c = connect_vertices(l, light_bsdf, v, mis_, settings_.walk, scale, roulette,
-                                    sampler, counters);
+                                    sampler, counters, reads(unread));
     if (!c) {
       return Rgb(0.0f);
     }
@@ -127,7 +147,7 @@ class BidirectionalIntegrator : public PassIntegrator {
     const Rgb value = arriving(c->value * w, *c, edges, roulette, sampler, with_value,
                                counters.connection_rays);
     gather(value, w, technique, sample, counters,
-           [&] { return SortedPath{block.states_of(l), v.states.all(), c->unread}; });
+           [&] { return SortedPath{block.states_of(l), states(v.trace), unread}; });
     found = c->weight;
     return value;
   }
@@ -137,8 +157,9 @@ class BidirectionalIntegrator : public PassIntegrator {
   template <class OnSplat>
   void splat(const PathVertex& v, float light_paths, const RouletteMap& roulettes, float margin,
              Sampler& sampler, size_t block, Counters& counters, OnSplat&& on_splat) {
-    const auto s =
-        connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk);
+    UnreadVertices unread;
+    const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_,
+                                     settings_.walk, reads(unread));
     if (!s) {
       return;
     }
@@ -152,7 +173,7 @@ class BidirectionalIntegrator : public PassIntegrator {
     }
     picture_splats_[block].push_back({s->raster, value});
     if (settings_.layers.any()) {
-      const SortedPath path{v.states.all(), camera_state(), c.unread};
+      const SortedPath path{states(v.trace), camera_state(), unread};
       settings_.layers.spread(value, w, technique, settings_.walk.expressions, path,
                               [&](size_t layer, Rgb part) {
                                 layer_splats_[block].push_back(

@@ -76,8 +76,12 @@ class LightTracer final : public PassIntegrator {
     const Rgb value = settings_.clamp(v.beta * lens->importance / static_cast<float>(count),
                                       v.edges + 1);
     if (usable(value, counters)) {
-      add_splat(lens->raster, value, {v.states.all(), camera_state(), {}});
+      add_splat(lens->raster, value, {states(v), camera_state(), {}});
     }
+  }
+
+  static std::span<const WeightedState> states(const PathVertex& v) {
+    return v.trace ? v.trace->states.all() : std::span<const WeightedState>();
   }
 
   // Adds the parts of `value` to the layers of the expressions that its path matches.
@@ -92,8 +96,10 @@ class LightTracer final : public PassIntegrator {
   template <class AddSplat>
   void splat(const PathVertex& v, Sampler& sampler, float margin, size_t count, Counters& counters,
              AddSplat&& add_splat) const {
+    UnreadVertices unread;
     const auto s =
-        connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk);
+        connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk,
+                          settings_.walk.expressions ? &unread : nullptr);
     const int crossings = settings_.walk.max_crossings - v.crossings;
     if (!s || crossings < 0 || !usable(s->connection.value, counters)) {
       return;
@@ -104,7 +110,7 @@ class LightTracer final : public PassIntegrator {
         c.value * context_.scene.transmittance(c.from, c.to, c.type, crossings, c.camera);
     if (!is_black(value)) {
       add_splat(s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1),
-                {v.states.all(), camera_state(), c.unread});
+                {states(v), camera_state(), unread});
     }
   }
 
@@ -130,7 +136,7 @@ class LightTracer final : public PassIntegrator {
                   const WeightedState light{settings_.walk.expressions->from_light(found.light),
                                             Rgb(1.0f)};
                   const std::span<Rgb> layers = context_.film.layers_at(i);
-                  sort(value, {{&light, 1}, found.states, {}},
+                  sort(value, path_of_light(found, light),
                        [&](size_t layer, Rgb part) { layers[layer] += part; });
                 }
               }

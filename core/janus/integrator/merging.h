@@ -36,14 +36,16 @@ class Merging {
     scale_ = 1.0f / (area() * static_cast<float>(light_paths));
   }
 
-  // Calls on_merge(light vertex, its block, Merge) for all that `v` is merged with.
+  // Calls on_merge(light vertex, its block, Merge, UnreadVertices) for all that `v` is merged with.
   template <class OnMerge>
   void gather(const PathVertex& v, const Mis& mis, const PathRules& rules, Counters& counters,
               OnMerge&& on_merge) const {
     grid_.for_each_near(v.hit.p, [&](const LightVertex& l, const CacheBlock& block) {
-      if (const auto merged = merge_vertices(l, v, mis, rules, scale_)) {
+      UnreadVertices unread;
+      if (const auto merged = merge_vertices(l, v, mis, rules, scale_,
+                                             rules.expressions ? &unread : nullptr)) {
         ++counters.merges;
-        on_merge(l, block, *merged);
+        on_merge(l, block, *merged, unread);
       }
     });
   }

@@ -39,6 +39,21 @@ class PassIntegrator : public Integrator {
   // The camera's side of paths that end at nothing but the camera.
   std::span<const WeightedState> camera_state() const { return camera_state_.all(); }
 
+  // A path to a light that a camera walk has found; `light`: its state.
+  SortedPath path_of_light(const LightFound& found, const WeightedState& light) const {
+    if (!found.trace) {
+      return {};
+    }
+    if (found.edges == 1) {
+      return {{&light, 1}, found.trace->states.all(), {}};
+    }
+    UnreadVertex z_1 = found.trace->vertex;
+    if (settings_.walk.ray_types) {
+      z_1.shares = z_1.shares.lit(context_.scene.lights[found.light]->visibility);
+    }
+    return {{&light, 1}, found.trace->before.all(), UnreadVertices(z_1)};
+  }
+
   // Keeps the colours of what the camera sees in pixel `index`, if `v` is that.
   void see(const PathVertex& v, size_t index) {
     if (settings_.layers.colors && v.edges == 1) {

@@ -39,6 +39,8 @@ class PathTracer final : public PassIntegrator {
     return own / (own + other);
   }
 
+  struct Trace;
+
   // A walk between two vertices.
   struct Walk {
     Ray ray;               // from the last vertex
@@ -59,21 +61,22 @@ class PathTracer final : public PassIntegrator {
     bool clear = true;
     // Where it looks for lights with the rules of shadow rays: what lets them through so far.
     std::optional<Rgb> through = std::nullopt;
-    // Of light path expressions: the last vertex, and what was read before and with it.
-    UnreadVertex vertex{};
-    PathStates before{}, after{};
-    std::span<Rgb> layers = {};  // of the pixel
+    Trace* trace = nullptr;  // without light path expressions: none
+  };
+
+  // The expressions' part of a walk.
+  struct Trace : PathTrace {
+    std::span<Rgb> layers;  // of the pixel
   };
 
   // Adds light of source `index` to the layers of those expressions that its path matches. `z_1`:
   // where it was scattered last, after what `before` has read; null: nowhere.
-  void sort(const Walk& walk, size_t index, Rgb value, const UnreadVertex* z_1,
-            const PathStates& before) const {
-    const PathAutomaton* expressions = settings_.walk.expressions;
-    if (!expressions || !is_finite(value)) {
+  [[gnu::noinline]] void sort(const Trace& trace, size_t index, Rgb value, const UnreadVertex* z_1,
+                              const PathStates& before) const {
+    if (!is_finite(value)) {
       return;
     }
-    const WeightedState light{expressions->from_light(index), Rgb(1.0f)};
+    const WeightedState light{settings_.walk.expressions->from_light(index), Rgb(1.0f)};
     SortedPath path{{&light, 1}, before.all(), {}};
     if (z_1) {
       path.unread = UnreadVertices(*z_1);
@@ -82,8 +85,8 @@ class PathTracer final : public PassIntegrator {
         shares = shares.lit(context_.scene.lights[index]->visibility);
       }
     }
-    for_each_match(*expressions, path,
-                   [&](size_t layer, Rgb share) { walk.layers[layer] += value * share; });
+    for_each_match(*settings_.walk.expressions, path,
+                   [&](size_t layer, Rgb share) { trace.layers[layer] += value * share; });
   }
 
   // Light of source `index` found on the way.
@@ -113,9 +116,11 @@ class PathTracer final : public PassIntegrator {
             : lights.pmf_illumination(walk.previous, index, hit.primitive) * hit.pdf_illumination;
     const float w = pdf_nee > 0.0f ? weight(walk.pdf_solid, pdf_nee) : 1.0f;
     const Rgb value = settings_.clamp(beta * lit * hit.radiance * w, walk.edges);
-    const bool straight = walk.edges == 1;
-    sort(walk, index, value, straight ? nullptr : &walk.vertex,
-         straight ? walk.after : walk.before);
+    if (const Trace* trace = walk.trace) {
+      const bool straight = walk.edges == 1;
+      sort(*trace, index, value, straight ? nullptr : &trace->vertex,
+           straight ? trace->states : trace->before);
+    }
     return value;
   }
 
@@ -226,9 +231,10 @@ class PathTracer final : public PassIntegrator {
     ++counters.camera_paths;
     const Ray start = context_.camera.sample_ray(raster, sampler.next_2d()).ray;
     Walk walk{start, {start.origin, start.direction, true}, start.origin};
-    walk.layers = layers;
+    std::optional<Trace> trace;
     if (settings_.walk.expressions) {
-      walk.after = PathStates(settings_.walk.expressions->from_camera());
+      walk.trace =
+          &trace.emplace(PathTrace(settings_.walk.expressions->from_camera()), layers);
     }
     Rgb sum(0.0f);
     for (;;) {
@@ -330,24 +336,26 @@ class PathTracer final : public PassIntegrator {
                   .rest = Rgb(1.0f) - diffuse,
                   .transmitted = sample->transmitted,
                   .clear = clear,
-                  .before = walk.after,
-                  .layers = layers};
-      if (settings_.walk.expressions) {
-        walk.vertex = {hit->instance, ScatterShares::sampled(*sample)};
-        read_event(walk, sampler);
+                  .trace = walk.trace};
+      if (walk.trace) {
+        read_event(walk, {hit->instance, ScatterShares::sampled(*sample)}, sampler);
       }
     }
   }
 
-  // Takes the expressions past the last vertex. Numbers are drawn apart, as in subpath.h.
-  void read_event(Walk& walk, Sampler sampler) const {
+  // Takes the expressions past the last vertex. Numbers are drawn apart, as in subpath.cpp.
+  [[gnu::noinline]] void read_event(const Walk& walk, const UnreadVertex& vertex,
+                                    Sampler sampler) const {
+    Trace& trace = *walk.trace;
     sampler.start_block((1U << 20) + static_cast<uint32_t>(walk.edges));
-    UnreadVertex vertex = walk.vertex;
+    trace.vertex = vertex;
+    trace.before = trace.states;
+    UnreadVertex read = vertex;
     if (settings_.walk.ray_types) {
-      vertex.shares = vertex.shares.labelled(walk.type);
+      read.shares = read.shares.labelled(walk.type);
     }
-    walk.after = walk.before.after(
-        vertex,
+    trace.states = trace.before.after(
+        read,
         [&](PathAutomaton::State state, int event, uint32_t instance) {
           return settings_.walk.expressions->reverse(state, event, instance);
         },
@@ -419,8 +427,10 @@ class PathTracer final : public PassIntegrator {
     const Rgb value = settings_.clamp(
         walk.beta * f * visible * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee),
         walk.edges + 1);
-    const UnreadVertex z_1{hit.instance, ScatterShares::joined(e, transmitted)};
-    sort(walk, choice.light, value, &z_1, walk.after);
+    if (walk.trace) {
+      const UnreadVertex z_1{hit.instance, ScatterShares::joined(e, transmitted)};
+      sort(*walk.trace, choice.light, value, &z_1, walk.trace->states);
+    }
     return value;
   }
 };

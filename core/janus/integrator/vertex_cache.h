@@ -32,10 +32,12 @@ struct CacheBlock {
       out.reshading = static_cast<int32_t>(reshadings.size());
       reshadings.push_back(v.reshading);
     }
-    const std::span<const WeightedState> read = v.states.all();
-    out.first_state = static_cast<uint32_t>(states.size());
-    out.state_count = static_cast<uint8_t>(read.size());
-    states.insert(states.end(), read.begin(), read.end());
+    if (v.trace) {
+      const std::span<const WeightedState> read = v.trace->states.all();
+      out.first_state = static_cast<uint32_t>(states.size());
+      out.state_count = static_cast<uint8_t>(read.size());
+      states.insert(states.end(), read.begin(), read.end());
+    }
     const BsdfView bsdf = v.bsdf();
     for (const Lobe& lobe : bsdf.lobes()) {
       if (!is_delta(lobe)) {  // view-free and connectible: the rest is never asked for

@@ -32,7 +32,7 @@ LightVertex::LightVertex(const PathVertex& v)
 
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& v,
                                                 const Mis& mis, const PathRules& rules,
-                                                Sampler& sampler) {
+                                                Sampler& sampler, UnreadVertices* unread) {
   std::optional<LightConnection> joined;
   const float u_light = sampler.next_1d();
   const vec2 u = sampler.next_2d();
@@ -73,11 +73,11 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   joined->connection.type = light.shadow_ray;
   joined->connection.crossings = v.crossings;
   joined->end = {joint, pdf_nee, light.hittable(), wi};
-  if (rules.expressions) {
+  if (unread) {
     const bool transmitted = dot(v.back, v.hit.ng) * dot(wi, v.hit.ng) < 0.0f;
     ScatterShares shares = ScatterShares::joined(e, transmitted);
     shares = rules.ray_types ? shares.lit(light.visibility) : shares;
-    joined->connection.unread = UnreadVertices({v.hit.instance, shares});
+    *unread = UnreadVertices({v.hit.instance, shares});
   }
   joined->light = choice.light;
   return joined;
@@ -87,7 +87,7 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
                                            const PathVertex& c, const Mis& mis,
                                            const PathRules& rules, float scale,
                                            const Roulette& roulette, Sampler& sampler,
-                                           Counters& counters) {
+                                           Counters& counters, UnreadVertices* unread) {
   std::optional<Connection> joined;
   const vec3 d = l.p - c.hit.p;
   const float d2 = length2(d);
@@ -167,20 +167,20 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   joined->type = type;
   joined->crossings = c.crossings + l.crossings;
   joined->made_up = made_up;
-  if (rules.expressions) {
+  if (unread) {
     UnreadVertex first{l.instance, ScatterShares::joined(at_light, transmitted_light)};
     UnreadVertex second{c.hit.instance, ScatterShares::joined(at_camera, transmitted_camera)};
     if (rules.ray_types) {
       second.shares = second.shares.labelled(type);
       first.shares = l.edges == 1 ? first.shares.lit(l.labels) : first.shares.within(l.labels);
     }
-    joined->unread = UnreadVertices(first, second);
+    *unread = UnreadVertices(first, second);
   }
   return joined;
 }
 
 std::optional<Merge> merge_vertices(const LightVertex& l, const PathVertex& c, const Mis& mis,
-                                    const PathRules& rules, float scale) {
+                                    const PathRules& rules, float scale, UnreadVertices* unread) {
   constexpr float kSameSurface = 0.7f;  // cosine between the normals
   std::optional<Merge> merged;
   const int edges = l.edges + c.edges;
@@ -209,16 +209,16 @@ std::optional<Merge> merge_vertices(const LightVertex& l, const PathVertex& c, c
   merged.emplace();
   merged->value = c.beta * e.f * l.beta * (scale / std::abs(cos_light));
   merged->weight = mis.weight_merge(l.mis, e.pdf_radiance, c.mis, e.pdf_importance);
-  if (rules.expressions) {
+  if (unread) {
     const auto shares = ScatterShares::joined(e, transmitted);
-    merged->unread =
-        UnreadVertices({c.hit.instance, rules.ray_types ? shares.within(l.labels) : shares});
+    *unread = UnreadVertices({c.hit.instance, rules.ray_types ? shares.within(l.labels) : shares});
   }
   return merged;
 }
 
 std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& camera, vec2 u_lens,
-                                             float margin, const Mis& mis, const PathRules& rules) {
+                                             float margin, const Mis& mis, const PathRules& rules,
+                                             UnreadVertices* unread) {
   std::optional<CameraSplat> splat;
   if (!contains(v.visibility, RayType::Camera) || v.edges + 1 > v.max_edges || v.held) {
     return splat;
@@ -259,12 +259,12 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
   joined.crossings = v.crossings;
   splat->raster = to_camera->raster;
   splat->end = {v.hit.p + std::sqrt(to_camera->distance2) * wo, to_camera->density};
-  if (rules.expressions) {
+  if (unread) {
     auto shares = ScatterShares::joined(e, transmitted);
     if (rules.ray_types) {
       shares = v.edges == 1 ? shares.lit(v.source) : shares.within(v.possible_labels(false));
     }
-    joined.unread = UnreadVertices({v.hit.instance, shares});
+    *unread = UnreadVertices({v.hit.instance, shares});
   }
   return splat;
 }

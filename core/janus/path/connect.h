@@ -23,7 +23,6 @@ struct Connection {
   // act on it.
   float made_up = 1.0f;
   Scene::End camera = Scene::End::A;  // which end of the ray is on the side of the camera
-  UnreadVertices unread = UnreadVertices();  // if PathRules::expressions
 };
 
 // A light vertex as the cache keeps it.
@@ -56,9 +55,10 @@ struct LightConnection {
   size_t light;
   LightEnd end;
 };
+// Here and below: `unread`, if there is one, gets the vertices where the path was joined.
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& camera_vertex,
                                                 const Mis& mis, const PathRules& rules,
-                                                Sampler& sampler);
+                                                Sampler& sampler, UnreadVertices* unread = nullptr);
 
 // `scale` is the estimator's factor for one connection; `roulette` plays on a bound of the
 // contribution before the BSDFs are evaluated.
@@ -66,7 +66,7 @@ std::optional<Connection> connect_vertices(const LightVertex& light_vertex, Bsdf
                                            const PathVertex& camera_vertex, const Mis& mis,
                                            const PathRules& rules, float scale,
                                            const Roulette& roulette, Sampler& sampler,
-                                           Counters& counters);
+                                           Counters& counters, UnreadVertices* unread = nullptr);
 
 // A light vertex behind z_1 and a camera vertex at about the same place taken as one (vertex
 // merging, Georgiev et al. 2012). `scale`: 1 / (pi r^2) over the number of light paths, where r is
@@ -74,11 +74,11 @@ std::optional<Connection> connect_vertices(const LightVertex& light_vertex, Bsdf
 struct Merge {
   Rgb value;
   MisWeight weight;
-  UnreadVertices unread;  // if PathRules::expressions
 };
 std::optional<Merge> merge_vertices(const LightVertex& light_vertex,
                                     const PathVertex& camera_vertex, const Mis& mis,
-                                    const PathRules& rules, float scale);
+                                    const PathRules& rules, float scale,
+                                    UnreadVertices* unread = nullptr);
 
 struct CameraSplat {
   Connection connection;
@@ -87,6 +87,7 @@ struct CameraSplat {
 };
 std::optional<CameraSplat> connect_to_camera(const PathVertex& light_vertex, const Camera& camera,
                                              vec2 u_lens, float margin, const Mis& mis,
-                                             const PathRules& rules);
+                                             const PathRules& rules,
+                                             UnreadVertices* unread = nullptr);
 
 }  // namespace janus

@@ -103,6 +103,15 @@ class PathStates {
   int count_ = 0;
 };
 
+// What has been read of a subpath.
+struct PathTrace {
+  PathStates states;    // of all vertices so far
+  PathStates before;    // of all but the last one
+  UnreadVertex vertex;  // the last one
+
+  explicit PathTrace(PathAutomaton::State start) : states(start) {}
+};
+
 // The vertices of a finished path that neither side has read, from the light to the camera.
 struct UnreadVertices {
   UnreadVertex vertices[2];  // not initialised beyond the count

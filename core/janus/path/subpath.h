@@ -25,9 +25,7 @@ struct LightFound {
   MisWeight weight;    // 1 for edges == 1
   LightEnd end;        // for edges > 1
   Departure previous;  // how z_1 was left
-  // If PathRules::expressions: the camera's side of the path, and z_1.
-  std::span<const WeightedState> states;
-  UnreadVertices unread;
+  const PathTrace* trace;  // of the camera's side; see PathVertex
 };
 
 // State of a walk between two vertices.
@@ -42,38 +40,16 @@ struct WalkStep {
   Rgb value = Rgb(1.0f), diffuse = Rgb(0.0f);
   bool transmitted = false;
   bool clear = false;  // the vertex kept a clear view, or would hide what is hidden
-  // If PathRules::expressions: the vertex, and the states before and after it.
-  UnreadVertex vertex{};
-  PathStates before{}, after{};
 
   Rgb lit_share(RayMask visibility) const {
     return janus::lit_share(value, diffuse, transmitted, visibility);
   }
 };
 
-// Takes the expressions past `v`. Numbers are drawn apart: the picture does not depend on who looks
-// at it.
-inline void read_event(const PathVertex& v, const BsdfSample& sample, TransportMode mode,
-                       const WalkSettings& settings, Sampler sampler, WalkStep& step) {
-  constexpr uint32_t kBlock = 1 << 20;  // far beyond those of vertices
-  sampler.start_block(kBlock + static_cast<uint32_t>(v.edges));
-  const bool importance = mode == TransportMode::Importance;
-  UnreadVertex vertex{v.hit.instance, ScatterShares::sampled(sample)};
-  step.vertex = vertex;
-  step.before = v.states;
-  if (settings.ray_types) {  // what comes next was met by this label
-    vertex.shares = importance && v.edges == 1 ? vertex.shares.lit(v.source)
-                                               : vertex.shares.labelled(step.label);
-  }
-  const PathAutomaton& automaton = *settings.expressions;
-  step.after = v.states.after(
-      vertex,
-      [&](PathAutomaton::State state, int event, uint32_t instance) {
-        return importance ? automaton.forward(state, event, instance)
-                          : automaton.reverse(state, event, instance);
-      },
-      sampler);
-}
+// Takes the expressions past `v`, whose event has got `label`. Numbers are drawn apart: the picture
+// does not depend on who looks at it.
+void read_event(const PathVertex& v, const BsdfSample& sample, TransportMode mode,
+                const WalkSettings& settings, Sampler sampler, RayType label);
 
 // Scatters at `v`, applies roulette and writes `step`. `start`: throughput 1 of this walk;
 // `eta_scale`: product of the refractions so far. False when the walk ends.
@@ -105,8 +81,8 @@ inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, Trans
   step.clear = settings.clear_glass >= 0.0f &&
                (mode == TransportMode::Radiance ? v.clear : v.hidden) &&
                leaves_clear(settings, v, *sample, mode, sampler);
-  if (settings.expressions) {
-    read_event(v, *sample, mode, settings, sampler, step);
+  if (v.trace) {
+    read_event(v, *sample, mode, settings, sampler, step.label);
   }
   eta_scale *= sample->eta_scale;
   const float q = settings.roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
@@ -185,8 +161,9 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   const float start = max_component(v.beta);
   v.source = light.visibility;
   v.hidden = hidden_in_clear_view(light, settings);
+  std::optional<PathTrace> trace;
   if (settings.expressions) {
-    v.states = PathStates(settings.expressions->from_light(index));
+    v.trace = &trace.emplace(settings.expressions->from_light(index));
   }
   v.max_edges = std::min(settings.max_edges, light.max_edges);
   // What a mirror shows of the light is no shadow ray.
@@ -240,7 +217,6 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
       }
     }
     v.beta = step.beta;
-    v.states = step.after;
     const vec3 previous = v.hit.p;
     const auto watch = [&](const Ray& ray, float begin, float end, const PathVertex& on_way) {
       if (!v.hidden && v.edges + 1 <= v.max_edges) {
@@ -284,8 +260,9 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
   v.beta = Rgb(1.0f);
   v.crossings = 0;
   v.camera_end = {start.lens, start.density};
+  std::optional<PathTrace> trace;
   if (settings.expressions) {
-    v.states = PathStates(settings.expressions->from_camera());
+    v.trace = &trace.emplace(settings.expressions->from_camera());
   }
   WalkStep step{start.ray, {false, start.density.value, 0.0f}, {}, v.beta, 0.0f};
   Receiver previous{start.lens, start.ray.direction, true};
@@ -298,13 +275,6 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     // Is the light ahead seen otherwise than the next vertex?
     const bool shadow_ray = settings.ray_types && v.edges > 1 && !step.left.delta &&
                             (scene.has_unblocked || !scene.accel->alike(type, RayType::Shadow));
-    const auto unread = [&](const Light& light) {
-      UnreadVertex z_1 = step.vertex;
-      if (settings.ray_types) {
-        z_1.shares = z_1.shares.lit(light.visibility);
-      }
-      return UnreadVertices(z_1);
-    };
     const auto found = [&](size_t index, const LightHit& hit, Rgb beta) {
       const Light& light = *scene.lights[index];
       if (v.clear && hidden_in_clear_view(light, settings)) {
@@ -312,7 +282,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
       }
       if (v.edges == 1) {
         if (contains(light.visibility, RayType::Camera)) {
-          on_light(LightFound{index, hit, beta, 1, false, {}, {}, {}, v.states.all(), {}});
+          on_light(LightFound{index, hit, beta, 1, false, {}, {}, {}, v.trace});
         }
         return;
       }
@@ -335,8 +305,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
           mis.weight_hit(step.left.pdf_solid, step.left.delta, pdf_nee, joint, step.behind),
           {joint, pdf_nee, true, ray.direction},
           step.left,
-          step.before.all(),
-          settings.expressions ? unread(light) : UnreadVertices()});
+          v.trace});
     };
     const auto on_segment = [&](float t_begin, float t_end, bool surface) {
       if (!shadow_ray) {
@@ -399,7 +368,6 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     }
     previous = receiver(v.hit, v.bsdf(), v.back);
     v.beta = step.beta;
-    v.states = step.after;
     v.clear = step.clear;
   }
 }

@@ -43,7 +43,7 @@ struct PathVertex {
   int edges;                      // from the start of the subpath
   int crossings;                  // of transparent surfaces since the start of the subpath
   BounceCounts bounces;           // at the vertices before this one, if PathRules::counts()
-  PathStates states;              // of all before it, if PathRules::expressions
+  PathTrace* trace = nullptr;     // of all before it; null without PathRules::expressions
   Departure previous;             // how the walk left the vertex before (edges > 1)
   RayMask visibility = kAllRays;  // of its object, if PathRules::ray_types
   // Light subpaths, if PathRules::ray_types: what sees the light, and the types that were drawn for

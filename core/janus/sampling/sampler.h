@@ -72,8 +72,9 @@ class Sampler {
   // that a vertex uses the same dimensions whatever was drawn before it.
   void start_block(uint32_t block) { dimension_ = block * kDimensionsPerBlock; }
 
-  // In [0, 1)^2.
-  vec2 next_2d() {
+  // In [0, 1)^2. Always in line, as the next one: walks are large functions in which the compiler
+  // soon stops, and calls of these cost them 5 %.
+  [[gnu::always_inline]] vec2 next_2d() {
     using namespace detail;
     const Seeds seeds = next_seeds();
     const uint32_t i = shuffled(seeds);
@@ -83,7 +84,7 @@ class Sampler {
   }
 
   // In [0, 1).
-  float next_1d() {
+  [[gnu::always_inline]] float next_1d() {
     const Seeds seeds = next_seeds();
     return detail::to_unit(
         detail::reverse_bits(detail::scramble_reversed(shuffled(seeds), seeds.first)));
