@@ -16,7 +16,7 @@ from collections.abc import Mapping
 import numpy as np
 from _measure import CapturedScene
 
-SCENES = ("diffuse_box", "hidden_light", "studio")
+SCENES = ("diffuse_box", "studio")
 SIZE = 256
 FLOOR, AIM = 10.0, 3.0  # per cent, for four expressions
 EXPRESSIONS = {

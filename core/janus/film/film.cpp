@@ -70,7 +70,8 @@ void Film::add_splats(std::span<const std::vector<Splat>> blocks, ThreadPool& po
 
 void Film::add_splats(std::span<const std::vector<LayerSplat>> blocks, ThreadPool& pool) {
   for_each_splat(blocks, pool, [&](size_t pixel, Rgb value, const LayerSplat& splat) {
-    pass_layers_[pixel * layer_count_ + splat.layer] += value;
+    splat.layers.for_each(
+        [&](size_t layer) { pass_layers_[pixel * layer_count_ + layer] += value; });
   });
 }
 

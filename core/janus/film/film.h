@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,11 +28,22 @@ struct Splat {
   Rgb value;
 };
 
-// A contribution to a layer.
+// A contribution to layers: to `first` + i for each bit i.
+struct LayerMask {
+  uint64_t bits;
+  uint32_t first = 0;
+
+  template <class F>
+  void for_each(F&& f) const {
+    for (uint64_t rest = bits; rest != 0; rest &= rest - 1) {
+      f(first + static_cast<size_t>(std::countr_zero(rest)));
+    }
+  }
+};
 struct LayerSplat {
   vec2 raster;
   Rgb value;
-  uint32_t layer;
+  LayerMask layers;
 };
 
 // Accumulates whole passes. A pass writes its camera samples (one per pixel, each pixel by one

@@ -69,7 +69,9 @@ class BidirectionalIntegrator : public PassIntegrator {
                                        const SortedPath& path, size_t index) {
     const std::span<Rgb> layers = context_.film.layers_at(index);
     settings_.layers.spread(value, weight, technique, settings_.walk.expressions, path,
-                            [&](size_t layer, Rgb part) { layers[layer] += part; });
+                            [&](LayerMask mask, Rgb part) {
+                              mask.for_each([&](size_t layer) { layers[layer] += part; });
+                            });
   }
 
   // The light's side of paths that start with nothing but light `index`.
@@ -175,9 +177,8 @@ class BidirectionalIntegrator : public PassIntegrator {
     if (settings_.layers.any()) {
       const SortedPath path{states(v.trace), camera_state(), unread};
       settings_.layers.spread(value, w, technique, settings_.walk.expressions, path,
-                              [&](size_t layer, Rgb part) {
-                                layer_splats_[block].push_back(
-                                    {s->raster, part, static_cast<uint32_t>(layer)});
+                              [&](LayerMask mask, Rgb part) {
+                                layer_splats_[block].push_back({s->raster, part, mask});
                               });
     }
     on_splat(s->raster, value, c.weight);

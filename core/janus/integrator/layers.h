@@ -4,6 +4,7 @@
 // the colours of surfaces, then the images of strategies.
 #pragma once
 
+#include "janus/film/film.h"
 #include "janus/integrator/strategies.h"
 #include "janus/path/match.h"
 #include "janus/shading/surface_color.h"
@@ -35,26 +36,26 @@ struct Layers {
   size_t count() const { return longest > 0 ? longer() + 1 : first_strategy(); }
   bool any() const { return count() > 0; }
 
-  // Calls add(layer, value) for each layer that shows a part of `value`, to which a weight of
+  // Calls add(LayerMask, value) for the layers that show a part of `value`, to which a weight of
   // `weight` has been applied. `automaton`: null without expressions.
   template <class Add>
   void spread(Rgb value, float weight, Technique technique, const PathAutomaton* automaton,
               const SortedPath& path, Add&& add) const {
     if (automaton) {
       for_each_match(*automaton, path,
-                     [&](size_t expression, Rgb share) { add(expression, value * share); });
+                     [&](ExpressionMask which, Rgb share) { add(LayerMask{which}, value * share); });
     }
     if (longest == 0) {
       return;
     }
     if (technique.edges() > longest) {
-      add(longer(), value);
+      add(LayerMask{1, static_cast<uint32_t>(longer())}, value);
       return;
     }
-    const size_t layer = strategy(technique);
-    add(layer, value);
+    const auto layer = static_cast<uint32_t>(strategy(technique));
+    add(LayerMask{1, layer}, value);
     if (weight > 0.0f) {
-      add(layer + 1, value / weight);
+      add(LayerMask{1, layer + 1}, value / weight);
     }
   }
 

@@ -36,9 +36,8 @@ class LightTracer final : public PassIntegrator {
       Counters counters;
       const auto add_splat = [&](vec2 raster, Rgb value, const SortedPath& path) {
         splats[block].push_back({raster, value});
-        sort(value, path, [&](size_t layer, Rgb part) {
-          layers[block].push_back({raster, part, static_cast<uint32_t>(layer)});
-        });
+        sort(value, path,
+             [&](LayerMask mask, Rgb part) { layers[block].push_back({raster, part, mask}); });
       };
       const size_t end = std::min(count, (block + 1) * kLightBlock);
       for (size_t i = block * kLightBlock; i < end; ++i) {
@@ -89,7 +88,7 @@ class LightTracer final : public PassIntegrator {
   void sort(Rgb value, const SortedPath& path, Add&& add) const {
     if (settings_.walk.expressions) {
       for_each_match(*settings_.walk.expressions, path,
-                     [&](size_t expression, Rgb share) { add(expression, value * share); });
+                     [&](ExpressionMask which, Rgb share) { add(LayerMask{which}, value * share); });
     }
   }
 
@@ -137,7 +136,9 @@ class LightTracer final : public PassIntegrator {
                                             Rgb(1.0f)};
                   const std::span<Rgb> layers = context_.film.layers_at(i);
                   sort(value, path_of_light(found, light),
-                       [&](size_t layer, Rgb part) { layers[layer] += part; });
+                       [&](LayerMask mask, Rgb part) {
+                         mask.for_each([&](size_t layer) { layers[layer] += part; });
+                       });
                 }
               }
             },

@@ -86,7 +86,10 @@ class PathTracer final : public PassIntegrator {
       }
     }
     for_each_match(*settings_.walk.expressions, path,
-                   [&](size_t layer, Rgb share) { trace.layers[layer] += value * share; });
+                   [&](ExpressionMask which, Rgb share) {
+                     LayerMask{which}.for_each(
+                         [&](size_t layer) { trace.layers[layer] += value * share; });
+                   });
   }
 
   // Light of source `index` found on the way.

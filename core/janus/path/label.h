@@ -105,46 +105,68 @@ inline constexpr ScatterMask kReflections = 0b010101, kTransmissions = 0b101010;
 
 // An event at a vertex once both directions are known: a part of it is diffuse, the rest glossy or
 // specular.
-struct ScatterShares {
-  Rgb diffuse;  // by channel
-  bool transmitted = false, delta = false;
-
+class ScatterShares {
+ public:
+  ScatterShares() {}  // not `= default`, which would set it to zero
   static ScatterShares joined(const BsdfEval& e, bool transmitted) {
-    return {part(e.diffuse, e.f), transmitted, false};
+    return {e.diffuse, e.f, transmitted, false};
   }
   static ScatterShares sampled(const BsdfSample& sample) {
-    return {part(sample.diffuse, sample.weight), sample.transmitted, sample.delta};
+    return {sample.diffuse, sample.weight, sample.transmitted, sample.delta};
+  }
+
+  // Calls f(event, share by channel) for its kinds.
+  template <class F>
+  void for_each(F&& f) const {
+    if (kinds_ != Kinds::Other) {
+      f(scatter_event(Scattering::Diffuse, transmitted_), diffuse_);
+    }
+    if (kinds_ != Kinds::Diffuse) {
+      f(scatter_event(delta_ ? Scattering::Specular : Scattering::Glossy, transmitted_),
+        Rgb(1.0f) - diffuse_);
+    }
   }
 
   // The part where a light shines that is visible to `mask` alone; see lit_share().
   ScatterShares lit(RayMask mask) const {
-    const bool rest = contains(mask, transmitted ? RayType::Transmission : RayType::Glossy);
-    if (contains(mask, RayType::Diffuse) == rest) {
-      return *this;
-    }
-    return {Rgb(rest ? 0.0f : 1.0f), transmitted, delta};
+    const bool rest = contains(mask, transmitted_ ? RayType::Transmission : RayType::Glossy);
+    return contains(mask, RayType::Diffuse) == rest ? *this : all(!rest);
   }
   // The part with one of these labels.
-  ScatterShares within(RayMask labels) const { return transmitted ? *this : lit(labels); }
+  ScatterShares within(RayMask labels) const { return transmitted_ ? *this : lit(labels); }
   // That with a label which has been drawn.
   ScatterShares labelled(RayType label) const {
-    const Rgb all(label == RayType::Diffuse ? 1.0f : 0.0f);
-    return transmitted ? *this : ScatterShares{all, false, delta};
-  }
-
-  int diffuse_event() const { return scatter_event(Scattering::Diffuse, transmitted); }
-  int other_event() const {
-    return scatter_event(delta ? Scattering::Specular : Scattering::Glossy, transmitted);
+    return transmitted_ ? *this : all(label == RayType::Diffuse);
   }
 
  private:
-  static Rgb part(Rgb diffuse, Rgb whole) {
-    Rgb share(0.0f);
-    for (int c = 0; c < 3; ++c) {
-      share[c] = diffuse[c] > 0.0f ? std::min(diffuse[c] / whole[c], 1.0f) : 0.0f;
+  enum class Kinds : uint8_t { Diffuse, Other, Both };
+
+  ScatterShares(Rgb diffuse, Rgb whole, bool transmitted, bool delta)
+      : transmitted_(transmitted), delta_(delta) {
+    if (is_black(diffuse)) {
+      kinds_ = Kinds::Other;
+      diffuse_ = Rgb(0.0f);
+    } else if (diffuse == whole) {
+      kinds_ = Kinds::Diffuse;
+      diffuse_ = Rgb(1.0f);
+    } else {
+      kinds_ = Kinds::Both;
+      for (int c = 0; c < 3; ++c) {
+        diffuse_[c] = diffuse[c] > 0.0f ? std::min(diffuse[c] / whole[c], 1.0f) : 0.0f;
+      }
     }
-    return share;
   }
+  ScatterShares all(bool diffuse) const {
+    ScatterShares shares = *this;
+    shares.kinds_ = diffuse ? Kinds::Diffuse : Kinds::Other;
+    shares.diffuse_ = Rgb(diffuse ? 1.0f : 0.0f);
+    return shares;
+  }
+
+  Rgb diffuse_;  // by channel
+  bool transmitted_, delta_;
+  Kinds kinds_;
 };
 
 // Bounces of a part of a path by label.

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <span>
 
 #include "janus/path/automaton.h"
@@ -20,16 +19,6 @@ struct UnreadVertex {
   uint32_t instance;
   ScatterShares shares;
 
-  // Calls f(event, share) for its kinds.
-  template <class F>
-  void for_each_kind(F&& f) const {
-    if (!is_black(shares.diffuse)) {
-      f(shares.diffuse_event(), shares.diffuse);
-    }
-    if (shares.diffuse != Rgb(1.0f)) {
-      f(shares.other_event(), Rgb(1.0f) - shares.diffuse);
-    }
-  }
 };
 
 struct WeightedState {
@@ -56,7 +45,7 @@ class PathStates {
   template <class Next>
   PathStates after(const UnreadVertex& vertex, Next&& next, Sampler& sampler) const {
     PathStates read;
-    vertex.for_each_kind([&](int event, Rgb share) {
+    vertex.shares.for_each([&](int event, Rgb share) {
       for (const WeightedState& s : all()) {
         read.add(next(s.state, event, vertex.instance), s.share * share, sampler);
       }
@@ -131,12 +120,13 @@ struct SortedPath {
   UnreadVertices unread;
 };
 
-// Calls f(expression, share) for the parts of a path that belong to an expression.
+// Calls f(expressions, share) for the parts of a path that belong to expressions.
 template <class F>
 void for_each_match(const PathAutomaton& automaton, const SortedPath& path, F&& f) {
   const auto report = [&](PathAutomaton::State light, PathAutomaton::State camera, Rgb share) {
-    for (ExpressionMask rest = automaton.completed(light, camera); rest != 0; rest &= rest - 1) {
-      f(static_cast<size_t>(std::countr_zero(rest)), share);
+    const ExpressionMask expressions = automaton.completed(light, camera);
+    if (expressions != 0) {
+      f(expressions, share);
     }
   };
   const UnreadVertex* unread = path.unread.vertices;
@@ -147,13 +137,13 @@ void for_each_match(const PathAutomaton& automaton, const SortedPath& path, F&& 
         report(light.state, camera.state, share);
         continue;
       }
-      unread[0].for_each_kind([&](int event, Rgb part) {
+      unread[0].shares.for_each([&](int event, Rgb part) {
         const auto read = automaton.forward(light.state, event, unread[0].instance);
         if (path.unread.count == 1) {
           report(read, camera.state, share * part);
           return;
         }
-        unread[1].for_each_kind([&](int second, Rgb second_part) {
+        unread[1].shares.for_each([&](int second, Rgb second_part) {
           report(automaton.forward(read, second, unread[1].instance), camera.state,
                  share * part * second_part);
         });
