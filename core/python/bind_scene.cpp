@@ -321,8 +321,7 @@ void bind_scene(py::module_& m) {
       .def(
           "set_world",
           [](SceneBuilder& self, std::string name, const std::optional<py::dict>& graph,
-             bool camera, bool diffuse, bool glossy, bool transmission,
-             std::string light_group) {
+             bool camera, bool diffuse, bool glossy, bool transmission, std::string light_group) {
             WorldDesc desc;
             desc.light_group = std::move(light_group);
             desc.visibility = to_mask(camera, diffuse, glossy, transmission);

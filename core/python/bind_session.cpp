@@ -106,8 +106,7 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
   s.merge_radius = merge_radius;
   s.adaptive_counts = adaptive_counts;
   s.strategies = to_strategies(heuristic, strategies);
-  s.heuristic =
-      s.strategies ? Heuristic::Balance : from_name(kHeuristics, heuristic, "heuristic");
+  s.heuristic = s.strategies ? Heuristic::Balance : from_name(kHeuristics, heuristic, "heuristic");
   s.next_event = next_event;
   s.connection_mode = from_name(kConnectionModes, connection_mode, "connection_mode");
   for (const auto& [name, expression] : expressions) {
@@ -186,33 +185,32 @@ void bind_settings(py::module_& m) {
       "and lt a camera with a lens; connection_mode: CACHE or CLASSIC (a light path for each "
       "camera path); expressions: (name, light path expression) of each additional pass; "
       "light_passes: Cycles' passes by Blender's names, DiffDir, DiffInd, DiffCol, the same of "
-      "Gloss and Trans, Emit and Env; strategy_images: bdpt makes passes for each strategy of paths of up to so many edges; "
+      "Gloss and Trans, Emit and Env; strategy_images: bdpt makes passes for each strategy of "
+      "paths of up to so many edges; "
       "film_exposure: a factor of the colour; film_transparent: the world is not in the picture; "
       "film_transparent_glass: nor behind glass of up to film_transparent_roughness; "
       "roulette: False traces every path and every shadow ray to its end (slow); "
       "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
-  settings.def(py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
-               "crop"_a = py::none(), "samples"_a = d.samples, "seconds"_a = d.seconds,
-               "seed"_a = d.seed, "threads"_a = d.threads, "max_bounces"_a = d.max_bounces,
-               "max_diffuse_bounces"_a = d.max_diffuse_bounces,
-               "max_glossy_bounces"_a = d.max_glossy_bounces,
-               "max_transmission_bounces"_a = d.max_transmission_bounces,
-               "transparent_max_bounces"_a = d.transparent_max_bounces,
-               "clamp_direct"_a = d.clamp_direct, "clamp_indirect"_a = d.clamp_indirect,
-               "integrator"_a = to_name(kIntegrators, d.integrator),
-               "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
-               "light_paths"_a = d.light_paths, "connections"_a = d.connections,
-               "merge_radius"_a = d.merge_radius, "adaptive_counts"_a = d.adaptive_counts,
-               "heuristic"_a = to_name(kHeuristics, d.heuristic),
-               "film_exposure"_a = d.film_exposure, "film_transparent"_a = d.film_transparent,
-               "film_transparent_glass"_a = d.film_transparent_glass,
-               "film_transparent_roughness"_a = d.film_transparent_roughness,
-               "roulette"_a = d.roulette, "check_weights"_a = d.check_weights,
-               "next_event"_a = d.next_event,
-               "connection_mode"_a = to_name(kConnectionModes, d.connection_mode),
-               "strategies"_a = "", "expressions"_a = Expressions(),
-               "light_passes"_a = std::vector<std::string>(),
-               "strategy_images"_a = d.strategy_images);
+  settings.def(
+      py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
+      "crop"_a = py::none(), "samples"_a = d.samples, "seconds"_a = d.seconds, "seed"_a = d.seed,
+      "threads"_a = d.threads, "max_bounces"_a = d.max_bounces,
+      "max_diffuse_bounces"_a = d.max_diffuse_bounces,
+      "max_glossy_bounces"_a = d.max_glossy_bounces,
+      "max_transmission_bounces"_a = d.max_transmission_bounces,
+      "transparent_max_bounces"_a = d.transparent_max_bounces, "clamp_direct"_a = d.clamp_direct,
+      "clamp_indirect"_a = d.clamp_indirect, "integrator"_a = to_name(kIntegrators, d.integrator),
+      "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
+      "light_paths"_a = d.light_paths, "connections"_a = d.connections,
+      "merge_radius"_a = d.merge_radius, "adaptive_counts"_a = d.adaptive_counts,
+      "heuristic"_a = to_name(kHeuristics, d.heuristic), "film_exposure"_a = d.film_exposure,
+      "film_transparent"_a = d.film_transparent,
+      "film_transparent_glass"_a = d.film_transparent_glass,
+      "film_transparent_roughness"_a = d.film_transparent_roughness, "roulette"_a = d.roulette,
+      "check_weights"_a = d.check_weights, "next_event"_a = d.next_event,
+      "connection_mode"_a = to_name(kConnectionModes, d.connection_mode), "strategies"_a = "",
+      "expressions"_a = Expressions(), "light_passes"_a = std::vector<std::string>(),
+      "strategy_images"_a = d.strategy_images);
   settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
   settings.def("__repr__", [](const RenderSettings& s) {
     return py::str("RenderSettings(**{!r})").format(to_dict(s));

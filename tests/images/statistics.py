@@ -52,9 +52,7 @@ def block_means(image: np.ndarray, size: int, mask: np.ndarray | None = None) ->
     return np.array(means).reshape(-1, 3)
 
 
-def welch(
-    a: np.ndarray, b: np.ndarray, rounding: float = 1e-6
-) -> tuple[np.ndarray, np.ndarray]:
+def welch(a: np.ndarray, b: np.ndarray, rounding: float = 1e-6) -> tuple[np.ndarray, np.ndarray]:
     """(t, two-sided p) of Welch's test for equal means; axis 0 runs over the seeds.
 
     Where neither side scatters at all (both black, say) p is 1 if they are equal, else 0.

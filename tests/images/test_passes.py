@@ -44,8 +44,8 @@ def pictures(tmp_path_factory):
 
 def light(passes: dict[str, np.ndarray], name: str, color: str) -> np.ndarray:
     """A pass, not divided by its colour: at edges, that is a quotient of two noisy numbers."""
-    picture = passes[name][..., :3]
-    return picture * passes[color] if name.endswith(("Dir", "Ind", "Direct", "Indirect")) else picture
+    divided = name.endswith(("Dir", "Ind", "Direct", "Indirect"))
+    return passes[name][..., :3] * (passes[color] if divided else 1.0)
 
 
 @pytest.mark.parametrize("way", WAYS)

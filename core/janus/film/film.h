@@ -103,7 +103,7 @@ class Film {
   std::vector<Rgb> pass_splats_;  // light image of the running pass
   std::vector<glm::dvec4> sum_;   // both, over whole passes
   size_t layer_count_;
-  bool abandoned_ = false;  // was the last pass never ended?
+  bool abandoned_ = false;              // was the last pass never ended?
   std::vector<Rgb> pass_layers_;        // all layers of a pixel in a row; samples and splats
   std::vector<glm::dvec3> sum_layers_;  // likewise
 };

@@ -231,8 +231,7 @@ class Bdpt final : public BidirectionalIntegrator {
                                                  ? cache_.pick(effort_.connections, walk)
                                                  : VertexCache::Picks();
             MisWeight weight;
-            const Rgb direct =
-                gather_next_event(v, nee_roulette, walk, sample, counters, weight);
+            const Rgb direct = gather_next_event(v, nee_roulette, walk, sample, counters, weight);
             if (!is_black(direct)) {
               meter.add_single(direct, weight, v.edges + 1, true);
             }
@@ -286,8 +285,8 @@ class Bdpt final : public BidirectionalIntegrator {
     for (int n = 0; n < picks.count; ++n) {
       const auto& [block, vertex] = picks.entries[n];
       MisWeight weight;
-      const Rgb value = gather_connection(*vertex, *block, v, scale, roulette, sampler, sample,
-                                          counters, weight);
+      const Rgb value =
+          gather_connection(*vertex, *block, v, scale, roulette, sampler, sample, counters, weight);
       if (!is_black(value)) {
         meter.add(value, weight);
       }
@@ -322,8 +321,8 @@ class Bdpt final : public BidirectionalIntegrator {
   Merging merging_;
   SpecularWalks specular_walks_;
   WalkSettings specular_;
-  Counters work_;                           // of the pass before
-  size_t cache_bytes_ = 0;                  // the largest so far
+  Counters work_;           // of the pass before
+  size_t cache_bytes_ = 0;  // the largest so far
   RouletteMap roulette_;
   std::mutex check_mutex_;
   double weight_error_ = 0.0;

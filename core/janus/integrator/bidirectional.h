@@ -115,8 +115,8 @@ class BidirectionalIntegrator : public PassIntegrator {
     const Connection& c = nee->connection;
     const Technique technique{1, v.edges + 1};
     const float w = weight(c.weight, technique);
-    const Rgb value = arriving(c.value * w, c, v.edges + 1, roulette, sampler,
-                               counters.nee_samples, counters.nee_rays);
+    const Rgb value = arriving(c.value * w, c, v.edges + 1, roulette, sampler, counters.nee_samples,
+                               counters.nee_rays);
     WeightedState light;
     gather(value, w, technique, sample, counters, [&] {
       light = light_state(nee->light);
@@ -146,8 +146,8 @@ class BidirectionalIntegrator : public PassIntegrator {
     uint64_t with_value = 0;
     const Technique technique{l.edges + 1, v.edges + 1};
     const float w = weight(c->weight, technique);
-    const Rgb value = arriving(c->value * w, *c, edges, roulette, sampler, with_value,
-                               counters.connection_rays);
+    const Rgb value =
+        arriving(c->value * w, *c, edges, roulette, sampler, with_value, counters.connection_rays);
     gather(value, w, technique, sample, counters,
            [&] { return SortedPath{block.states_of(l), states(v.trace), unread}; });
     found = c->weight;

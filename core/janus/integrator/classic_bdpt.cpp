@@ -59,8 +59,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
     counters.light_vertices += light_path.vertices.size();
   }
 
-  void trace_camera_path(size_t index, int pass, const CacheBlock& light_path,
-                         Counters& counters) {
+  void trace_camera_path(size_t index, int pass, const CacheBlock& light_path, Counters& counters) {
     Sampler sampler = camera_sampler(index, pass);
     sampler.start_block(0);
     const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
@@ -82,7 +81,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
     context_.film.add_sample(index, sample.sum, alpha);
   }
 
-  size_t light_paths_;            // of a pass: one per pixel
+  size_t light_paths_;           // of a pass: one per pixel
   const RouletteMap roulettes_;  // without a picture: none
 };
 

@@ -29,8 +29,8 @@ struct IntegratorSettings {
   bool next_event = true;
   std::optional<Strategies> strategies;  // bdpt: these alone, without weights
   Layers layers;                         // of the film, beside the picture
-  float light_paths = 1.0f;  // per pixel
-  float connections = 1.0f;  // per camera vertex, expected
+  float light_paths = 1.0f;              // per pixel
+  float connections = 1.0f;              // per camera vertex, expected
   // bdpt: how far apart vertices may be to be merged in the first pass, scene units; 0: not at all.
   float merge_radius = 0.0f;
   // bdpt: the first two passes have these counts, and the others what these passes recommend.

@@ -29,9 +29,7 @@ struct Layers {
 
   // Of what surfaces scatter diffusely; then glossily, then what they transmit.
   size_t first_color() const { return expressions; }
-  bool is_color(size_t layer) const {
-    return layer >= first_color() && layer < first_strategy();
-  }
+  bool is_color(size_t layer) const { return layer >= first_color() && layer < first_strategy(); }
 
   size_t count() const { return longest > 0 ? longer() + 1 : first_strategy(); }
   bool any() const { return count() > 0; }
@@ -42,8 +40,9 @@ struct Layers {
   void spread(Rgb value, float weight, Technique technique, const PathAutomaton* automaton,
               const SortedPath& path, Add&& add) const {
     if (automaton) {
-      for_each_match(*automaton, path,
-                     [&](ExpressionMask which, Rgb share) { add(LayerMask{which}, value * share); });
+      for_each_match(*automaton, path, [&](ExpressionMask which, Rgb share) {
+        add(LayerMask{which}, value * share);
+      });
     }
     if (longest == 0) {
       return;

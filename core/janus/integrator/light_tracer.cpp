@@ -72,8 +72,8 @@ class LightTracer final : public PassIntegrator {
     if (!lens) {
       return;
     }
-    const Rgb value = settings_.clamp(v.beta * lens->importance / static_cast<float>(count),
-                                      v.edges + 1);
+    const Rgb value =
+        settings_.clamp(v.beta * lens->importance / static_cast<float>(count), v.edges + 1);
     if (usable(value, counters)) {
       add_splat(lens->raster, value, {states(v), camera_state(), {}});
     }
@@ -87,8 +87,9 @@ class LightTracer final : public PassIntegrator {
   template <class Add>
   void sort(Rgb value, const SortedPath& path, Add&& add) const {
     if (settings_.walk.expressions) {
-      for_each_match(*settings_.walk.expressions, path,
-                     [&](ExpressionMask which, Rgb share) { add(LayerMask{which}, value * share); });
+      for_each_match(*settings_.walk.expressions, path, [&](ExpressionMask which, Rgb share) {
+        add(LayerMask{which}, value * share);
+      });
     }
   }
 
@@ -135,10 +136,9 @@ class LightTracer final : public PassIntegrator {
                   const WeightedState light{settings_.walk.expressions->from_light(found.light),
                                             Rgb(1.0f)};
                   const std::span<Rgb> layers = context_.film.layers_at(i);
-                  sort(value, path_of_light(found, light),
-                       [&](LayerMask mask, Rgb part) {
-                         mask.for_each([&](size_t layer) { layers[layer] += part; });
-                       });
+                  sort(value, path_of_light(found, light), [&](LayerMask mask, Rgb part) {
+                    mask.for_each([&](size_t layer) { layers[layer] += part; });
+                  });
                 }
               }
             },

@@ -42,8 +42,8 @@ class Merging {
               OnMerge&& on_merge) const {
     grid_.for_each_near(v.hit.p, [&](const LightVertex& l, const CacheBlock& block) {
       UnreadVertices unread;
-      if (const auto merged = merge_vertices(l, v, mis, rules, scale_,
-                                             rules.expressions ? &unread : nullptr)) {
+      if (const auto merged =
+              merge_vertices(l, v, mis, rules, scale_, rules.expressions ? &unread : nullptr)) {
         ++counters.merges;
         on_merge(l, block, *merged, unread);
       }

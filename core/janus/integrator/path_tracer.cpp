@@ -4,8 +4,8 @@
 // roulette is shared): a second opinion on what bdpt computes.
 #include <array>
 
+#include "janus/integrator/camera_trace.h"
 #include "janus/integrator/pass.h"
-#include "janus/path/match.h"
 
 namespace janus {
 
@@ -23,8 +23,7 @@ class PathTracer final : public PassIntegrator {
         sampler.start_block(0);
         const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
         float alpha = 1.0f;
-        const Rgb value =
-            radiance(raster, sampler, counters, alpha, context_.film.layers_at(i));
+        const Rgb value = radiance(raster, sampler, counters, alpha, context_.film.layers_at(i));
         context_.film.add_sample(i, usable(value, counters) ? value : Rgb(0.0f), alpha);
       }
     });
@@ -38,8 +37,6 @@ class PathTracer final : public PassIntegrator {
     }
     return own / (own + other);
   }
-
-  struct Trace;
 
   // A walk between two vertices.
   struct Walk {
@@ -61,36 +58,8 @@ class PathTracer final : public PassIntegrator {
     bool clear = true;
     // Where it looks for lights with the rules of shadow rays: what lets them through so far.
     std::optional<Rgb> through = std::nullopt;
-    Trace* trace = nullptr;  // without light path expressions: none
+    CameraTrace* trace = nullptr;  // without light path expressions: none
   };
-
-  // The expressions' part of a walk.
-  struct Trace : PathTrace {
-    std::span<Rgb> layers;  // of the pixel
-  };
-
-  // Adds light of source `index` to the layers of those expressions that its path matches. `z_1`:
-  // where it was scattered last, after what `before` has read; null: nowhere.
-  [[gnu::noinline]] void sort(const Trace& trace, size_t index, Rgb value, const UnreadVertex* z_1,
-                              const PathStates& before) const {
-    if (!is_finite(value)) {
-      return;
-    }
-    const WeightedState light{settings_.walk.expressions->from_light(index), Rgb(1.0f)};
-    SortedPath path{{&light, 1}, before.all(), {}};
-    if (z_1) {
-      path.unread = UnreadVertices(*z_1);
-      if (settings_.walk.ray_types) {
-        ScatterShares& shares = path.unread.vertices[0].shares;
-        shares = shares.lit(context_.scene.lights[index]->visibility);
-      }
-    }
-    for_each_match(*settings_.walk.expressions, path,
-                   [&](ExpressionMask which, Rgb share) {
-                     LayerMask{which}.for_each(
-                         [&](size_t layer) { trace.layers[layer] += value * share; });
-                   });
-  }
 
   // Light of source `index` found on the way.
   Rgb found(const Walk& walk, size_t index, const LightHit& hit) const {
@@ -119,10 +88,8 @@ class PathTracer final : public PassIntegrator {
             : lights.pmf_illumination(walk.previous, index, hit.primitive) * hit.pdf_illumination;
     const float w = pdf_nee > 0.0f ? weight(walk.pdf_solid, pdf_nee) : 1.0f;
     const Rgb value = settings_.clamp(beta * lit * hit.radiance * w, walk.edges);
-    if (const Trace* trace = walk.trace) {
-      const bool straight = walk.edges == 1;
-      sort(*trace, index, value, straight ? nullptr : &trace->vertex,
-           straight ? trace->states : trace->before);
+    if (walk.trace) {
+      walk.trace->found(index, value, walk.edges);
     }
     return value;
   }
@@ -234,10 +201,9 @@ class PathTracer final : public PassIntegrator {
     ++counters.camera_paths;
     const Ray start = context_.camera.sample_ray(raster, sampler.next_2d()).ray;
     Walk walk{start, {start.origin, start.direction, true}, start.origin};
-    std::optional<Trace> trace;
+    std::optional<CameraTrace> trace;
     if (settings_.walk.expressions) {
-      walk.trace =
-          &trace.emplace(PathTrace(settings_.walk.expressions->from_camera()), layers);
+      walk.trace = &trace.emplace(scene, settings_.walk, layers);
     }
     Rgb sum(0.0f);
     for (;;) {
@@ -341,28 +307,10 @@ class PathTracer final : public PassIntegrator {
                   .clear = clear,
                   .trace = walk.trace};
       if (walk.trace) {
-        read_event(walk, {hit->instance, ScatterShares::sampled(*sample)}, sampler);
+        walk.trace->read({hit->instance, ScatterShares::sampled(*sample)}, walk.type, walk.edges,
+                         sampler);
       }
     }
-  }
-
-  // Takes the expressions past the last vertex. Numbers are drawn apart, as in subpath.cpp.
-  [[gnu::noinline]] void read_event(const Walk& walk, const UnreadVertex& vertex,
-                                    Sampler sampler) const {
-    Trace& trace = *walk.trace;
-    sampler.start_block((1U << 20) + static_cast<uint32_t>(walk.edges));
-    trace.vertex = vertex;
-    trace.before = trace.states;
-    UnreadVertex read = vertex;
-    if (settings_.walk.ray_types) {
-      read.shares = read.shares.labelled(walk.type);
-    }
-    trace.states = trace.before.after(
-        read,
-        [&](PathAutomaton::State state, int event, uint32_t instance) {
-          return settings_.walk.expressions->reverse(state, event, instance);
-        },
-        sampler);
   }
 
   // By channel.
@@ -431,8 +379,8 @@ class PathTracer final : public PassIntegrator {
         walk.beta * f * visible * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee),
         walk.edges + 1);
     if (walk.trace) {
-      const UnreadVertex z_1{hit.instance, ScatterShares::joined(e, transmitted)};
-      sort(*walk.trace, choice.light, value, &z_1, walk.trace->states);
+      walk.trace->joined(choice.light, value,
+                         {hit.instance, ScatterShares::joined(e, transmitted)});
     }
     return value;
   }

@@ -55,8 +55,8 @@ struct CacheBlock {
     return std::span(states).subspan(v.first_state, v.state_count);
   }
   size_t bytes() const {
-    return states.size() * sizeof(WeightedState) + vertices.size() * sizeof(LightVertex) + lobes.size() * sizeof(Lobe) +
-           reshadings.size() * sizeof(Reshading);
+    return states.size() * sizeof(WeightedState) + vertices.size() * sizeof(LightVertex) +
+           lobes.size() * sizeof(Lobe) + reshadings.size() * sizeof(Reshading);
   }
 };
 

@@ -46,8 +46,7 @@ Place look_at(const Scene& scene, vec3 direction, RayType type, PathVertex& v) {
 }  // namespace
 
 bool fly_past(const Scene& scene, const Ray& ray, RayType type, int max_crossings, Sampler& sampler,
-              uint64_t& rays, PathVertex& v,
-              const std::function<void(float, float)>& on_segment) {
+              uint64_t& rays, PathVertex& v, const std::function<void(float, float)>& on_segment) {
   Ray segment = ray;
   float t_begin = 0.0f;
   for (;;) {

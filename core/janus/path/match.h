@@ -18,7 +18,6 @@ namespace janus {
 struct UnreadVertex {
   uint32_t instance;
   ScatterShares shares;
-
 };
 
 struct WeightedState {
@@ -77,8 +76,8 @@ class PathStates {
     if (add(state, share)) {
       return;
     }
-    WeightedState& rival =
-        *std::ranges::min_element(states_, {}, [](const auto& s) { return max_component(s.share); });
+    WeightedState& rival = *std::ranges::min_element(
+        states_, {}, [](const auto& s) { return max_component(s.share); });
     const float own = max_component(share), others = max_component(rival.share);
     const float pmf = own / (own + others);
     if (sampler.next_1d() < pmf) {

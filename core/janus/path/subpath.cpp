@@ -13,8 +13,8 @@ void read_event(const PathVertex& v, const BsdfSample& sample, TransportMode mod
   trace.before = trace.states;
   UnreadVertex vertex = trace.vertex;
   if (settings.ray_types) {  // what comes next was met by this label
-    vertex.shares = importance && v.edges == 1 ? vertex.shares.lit(v.source)
-                                               : vertex.shares.labelled(label);
+    vertex.shares =
+        importance && v.edges == 1 ? vertex.shares.lit(v.source) : vertex.shares.labelled(label);
   }
   const PathAutomaton& automaton = *settings.expressions;
   trace.states = trace.before.after(

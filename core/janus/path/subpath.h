@@ -21,10 +21,10 @@ struct LightFound {
   LightHit hit;
   Rgb beta;
   int edges;
-  bool specular;       // over deltas alone, at least one
-  MisWeight weight;    // 1 for edges == 1
-  LightEnd end;        // for edges > 1
-  Departure previous;  // how z_1 was left
+  bool specular;           // over deltas alone, at least one
+  MisWeight weight;        // 1 for edges == 1
+  LightEnd end;            // for edges > 1
+  Departure previous;      // how z_1 was left
   const PathTrace* trace;  // of the camera's side; see PathVertex
 };
 

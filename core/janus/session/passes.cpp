@@ -80,8 +80,7 @@ RenderPasses::RenderPasses(const RenderSettings& settings, const Scene& scene) {
 
 void RenderPasses::add_light_pass(const std::string& name, std::vector<Expression>& expressions) {
   const LightPass& pass = *find_light_pass(name);
-  const auto color =
-      pass.color ? std::optional(layers_.first_color() + *pass.color) : std::nullopt;
+  const auto color = pass.color ? std::optional(layers_.first_color() + *pass.color) : std::nullopt;
   if (pass.expression) {
     passes_.push_back({name, expressions.size(), color});
     expressions.push_back(parse_expression(pass.expression));

@@ -27,8 +27,8 @@ class RenderPasses {
 
   struct Pass {
     std::string name;
-    size_t layer;                    // of the film
-    std::optional<size_t> color{};   // that it is divided by, likewise
+    size_t layer;                   // of the film
+    std::optional<size_t> color{};  // that it is divided by, likewise
   };
   const std::vector<Pass>& all() const { return passes_; }
 

@@ -49,10 +49,9 @@ void RenderSession::check_lights() {
                      "light paths cannot hit this camera (t=0): without next event estimation, "
                      "light tracing needs a perspective camera with depth of field");
   }
-  const bool only_hits =
-      settings_.integrator == IntegratorType::PathTracer
-          ? !settings_.next_event
-          : settings_.strategies && settings_.strategies->only_hits();
+  const bool only_hits = settings_.integrator == IntegratorType::PathTracer
+                             ? !settings_.next_event
+                             : settings_.strategies && settings_.strategies->only_hits();
   if (!only_hits) {
     return;
   }

@@ -50,13 +50,13 @@ struct RenderSettings {
   std::vector<ExpressionPass> expressions;  // at most PathAutomaton::kMostExpressions
   std::vector<std::string> light_passes;    // Cycles' passes of light, by names in light_passes()
   int strategy_images = 0;                  // bdpt: Layers::longest
-  float film_exposure = 1.0f;  // a factor of the finished picture's colour
+  float film_exposure = 1.0f;               // a factor of the finished picture's colour
   bool film_transparent = false;
   // On a transparent film: the world is not seen through glass of up to this roughness either.
   bool film_transparent_glass = false;
   float film_transparent_roughness = 0.1f;
-  bool roulette = true;                // Russian roulette on walks and on contributions
-  bool check_weights = false;          // debug: IntegratorSettings::check_weights
+  bool roulette = true;        // Russian roulette on walks and on contributions
+  bool check_weights = false;  // debug: IntegratorSettings::check_weights
   size_t cache_bytes = size_t{256} << 20;
 
   FilmRect rect() const { return crop.value_or(FilmRect{0, 0, width, height}); }

@@ -24,9 +24,8 @@ SurfaceColor surface_color(const BsdfView& bsdf, vec3 wo) {
         (lobe.type == LobeType::Specular ? Rgb(1.0f) : multiscatter_color(lobe, cos, eta));
     switch (lobe.type) {
       case LobeType::Metal:
-        color.glossy +=
-            weight * (lobe.color + (1.0f - lobe.color) *
-                                       schlick_reflectance(std::sqrt(lobe.alpha), cos));
+        color.glossy += weight * (lobe.color + (1.0f - lobe.color) *
+                                                   schlick_reflectance(std::sqrt(lobe.alpha), cos));
         break;
       case LobeType::Specular:
         color.glossy += weight * (1.0f - layer_transmittance(lobe, cos));

@@ -25,10 +25,26 @@ std::string complaint(const std::string& text) {
 }
 
 TEST(LectureExpressions, AreReadAsTheyAreTaught) {
-  for (const char* text :
-       {"LE", "LDE", "LS+DE", "LS^+DE", "LDD+E", "L(D|S)*E", "L(D|S)E", "L (D|S) (D|S)^+ E",
-        "LD?S*E", "L.*E", "L<TS>+DE", "L<SR'Mirror'>D'Wall'E", "L'Lamp.001''Glass'E", "L{Key}.*E",
-        "BSE", "O.E", "(LD|LS)E", "L(D(G|S))*E", "LRTE", "L((D))+E"}) {
+  for (const char* text : {"LE",
+                           "LDE",
+                           "LS+DE",
+                           "LS^+DE",
+                           "LDD+E",
+                           "L(D|S)*E",
+                           "L(D|S)E",
+                           "L (D|S) (D|S)^+ E",
+                           "LD?S*E",
+                           "L.*E",
+                           "L<TS>+DE",
+                           "L<SR'Mirror'>D'Wall'E",
+                           "L'Lamp.001''Glass'E",
+                           "L{Key}.*E",
+                           "BSE",
+                           "O.E",
+                           "(LD|LS)E",
+                           "L(D(G|S))*E",
+                           "LRTE",
+                           "L((D))+E"}) {
     EXPECT_EQ(complaint(text), "") << text;
   }
 }
@@ -169,10 +185,10 @@ class RandomExpressions {
     return sum;
   }
   Pattern symbol() {
-    const Pattern symbols[] = {
-        Pattern::symbol("D", "dD"),    Pattern::symbol("G", "gG"),   Pattern::symbol("S", "sS"),
-        Pattern::symbol("R", "dgs"),   Pattern::symbol("T", "DGS"),  Pattern::symbol(".", kEvents),
-        Pattern::symbol("<ST>", "S"), Pattern::symbol("<RD>", "d")};
+    const Pattern symbols[] = {Pattern::symbol("D", "dD"),   Pattern::symbol("G", "gG"),
+                               Pattern::symbol("S", "sS"),   Pattern::symbol("R", "dgs"),
+                               Pattern::symbol("T", "DGS"),  Pattern::symbol(".", kEvents),
+                               Pattern::symbol("<ST>", "S"), Pattern::symbol("<RD>", "d")};
     return symbols[below(8)];
   }
 

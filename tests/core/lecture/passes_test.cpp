@@ -131,9 +131,9 @@ INSTANTIATE_TEST_SUITE_P(Ways, LecturePasses, ::testing::ValuesIn(kWays),
                          [](const auto& info) { return info.param.name; });
 
 const std::vector<std::string> kSorted = {
-    "LDE",   "LGE",        "LDDE",        "LGDE",         "LDGE",
-    "LGGE",  "LDDD+E",     "LD<DT>E",     "L<GT>DE",      "L<DT>.E",
-    "LS+DE", "L.*G.*<DR>E", "L<GR>.*E",   "L.'paper'DE",  "LD.*D'plastic'E"};
+    "LDE",   "LGE",         "LDDE",     "LGDE",        "LDGE",
+    "LGGE",  "LDDD+E",      "LD<DT>E",  "L<GT>DE",     "L<DT>.E",
+    "LS+DE", "L.*G.*<DR>E", "L<GR>.*E", "L.'paper'DE", "LD.*D'plastic'E"};
 
 void expect_same_passes(const std::map<std::string, Mean>& a, const std::map<std::string, Mean>& b,
                         double least_error) {
@@ -163,7 +163,8 @@ TEST(LecturePassesOfAllIntegrators, Agree) {
 // Where bounce caps forbid one kind of a vertex and allow the other.
 TEST(LecturePassesOfAllIntegrators, AgreeUnderBounceCaps) {
   const auto scene = all_kinds().build();
-  const std::vector<std::string> texts = {"LDDE", "LGDE", "LDGE", "LGGE", "LD.DE", "LG.GE", "L...E"};
+  const std::vector<std::string> texts = {"LDDE",  "LGDE",  "LDGE", "LGGE",
+                                          "LD.DE", "LG.GE", "L...E"};
   std::map<std::string, Mean> reference;
   for (const Way& way : {kWays[0], kWays[2], kWays[3]}) {
     SCOPED_TRACE(way.name);
@@ -230,15 +231,16 @@ TEST(LecturePassesOfWords, AreKnown) {
                          .camera({0, -0.8f, 0.1f}, {0, 1, 0}, 0.4f)
                          .build();
   const double d = kDiffuse, s = kMirror, all = d + s;
-  const std::map<std::string, double> expected = {{"LE", 1.0},
-                                                  {"LDE", d},
-                                                  {"LSE", s},
-                                                  {"LDSE", d * s},
-                                                  {"LSDE", s * d},
-                                                  {"LS?D+E", d + d * d + d * d * d + s * d * (1 + d)},
-                                                  {"L(D|S)(D|S)E", all * all},
-                                                  {"L'box'E", 1.0},
-                                                  {"LD.SE", d * all * s}};
+  const std::map<std::string, double> expected = {
+      {"LE", 1.0},
+      {"LDE", d},
+      {"LSE", s},
+      {"LDSE", d * s},
+      {"LSDE", s * d},
+      {"LS?D+E", d + d * d + d * d * d + s * d * (1 + d)},
+      {"L(D|S)(D|S)E", all * all},
+      {"L'box'E", 1.0},
+      {"LD.SE", d * all * s}};
   std::vector<std::string> texts;
   for (const auto& [text, value] : expected) {
     texts.push_back(text);

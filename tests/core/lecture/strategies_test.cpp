@@ -154,9 +154,9 @@ TEST(LectureLens, IsHitAsItSees) {
       {"pentagon", with_lens(room().light("l", key), 5, 2.0f)},
       {"glass", with_lens(glass_room())},
       {"rules", with_lens(room().light("l", hidden))},
-      {"pane", with_lens(room().light("l", key).add(
-                   "pane", plane(3, 3), pane,
-                   translation({0, -1.5f, 0}) * rotation({1, 0, 0}, 1.5f)))},
+      {"pane",
+       with_lens(room().light("l", key).add(
+           "pane", plane(3, 3), pane, translation({0, -1.5f, 0}) * rotation({1, 0, 0}, 1.5f)))},
       {"unseen", with_lens(room().light("l", key).add(
                      "ghost", plane(0.8f, 0.8f), diffuse(Rgb(0.8f)),
                      translation({0, -1.1f, 0}) * rotation({1, 0, 0}, 1.5f),

@@ -6,6 +6,7 @@ from __future__ import annotations
 from mistakes.clear_views import CLEAR
 from mistakes.densities import DENSITIES
 from mistakes.film import FILM_AND_SAMPLES
+from mistakes.lecture import LECTURE_MADE_VISIBLE
 from mistakes.merges import MERGES
 from mistakes.paths import PATHS
 from mistakes.specular_walks import SPECULAR_WALKS
@@ -13,3 +14,4 @@ from mistakes.values import VALUES
 from mistakes.views import VIEWS
 
 MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES + SPECULAR_WALKS
+MISTAKES += LECTURE_MADE_VISIBLE

@@ -7,6 +7,7 @@ from mistake import Edit, Mistake, one
 
 from mistakes.sources import (
     BDPT,
+    BIDIRECTIONAL,
     BSDF,
     BSDFS,
     CAMERA,
@@ -232,19 +233,19 @@ DENSITIES = (
         "*Adaptive*",
         (
             Edit(
-                BDPT,
-                "Mis mis_; size_t waves_",
-                "Mis mis_; std::optional<Mis> first_; size_t waves_",
+                BIDIRECTIONAL,
+                "Mis mis_;",
+                "Mis mis_; std::optional<Mis> first_;",
             ),
             Edit(
-                BDPT,
+                BIDIRECTIONAL,
                 "mis_ = Mis(settings_.heuristic, counts_);",
                 "mis_ = Mis(settings_.heuristic, counts_); first_ = first_ ? first_ : mis_;",
             ),
             Edit(
-                BDPT,
-                "sampler.next_2d(), margin, mis_, settings_.walk);",
-                "sampler.next_2d(), margin, *first_, settings_.walk);",
+                BIDIRECTIONAL,
+                "sampler.next_2d(), margin, mis_, settings_.walk, reads",
+                "sampler.next_2d(), margin, *first_, settings_.walk, reads",
             ),
         ),
     ),

@@ -35,7 +35,11 @@ FILM_AND_SAMPLES = (
         }
         for (int y = y0; y <= y1; ++y) {""",
             ),
-            Edit(FILM, "weight * splat.value;", "weight * splat.value / std::max(taps, 1e-6f);"),
+            Edit(
+                FILM,
+                "weight * splat.value, splat);",
+                "weight * splat.value / std::max(taps, 1e-6f), splat);",
+            ),
         ),
     ),
     one(
@@ -44,8 +48,8 @@ FILM_AND_SAMPLES = (
         "splats count the light paths of their wave, not of the pass",
         "*Techniques*",
         BDPT,
-        "/ static_cast<float>(light_paths_)",
-        "/ static_cast<float>(wave_paths_)",
+        "static_cast<float>(light_paths_), roulette_, margin",
+        "static_cast<float>(wave_paths_), roulette_, margin",
     ),
     one(
         "shared-stream",
@@ -73,8 +77,8 @@ FILM_AND_SAMPLES = (
         (
             Edit(
                 BDPT,
-                "splats_.resize(std::max(splats_.size(), blocks));",
-                "splats_.resize(std::max(splats_.size(), blocks)); std::vector<CacheBlock> ended;",
+                "start_splats(blocks);",
+                "start_splats(blocks); std::vector<CacheBlock> ended;",
             ),
             Edit(
                 BDPT,

@@ -6,7 +6,7 @@ from __future__ import annotations
 from mistake import one
 
 from mistakes.sources import (
-    BDPT,
+    BIDIRECTIONAL,
     CAMERAS,
     CAPS,
     CONNECT,
@@ -24,9 +24,9 @@ PATHS = (
         2,
         "subpaths have caps of their own, the path has none",
         PICTURES,
-        BDPT,
-        "l.edges + v.edges + 1 > l.max_edges",
-        "l.edges > l.max_edges",
+        BIDIRECTIONAL,
+        "if (edges > l.max_edges)",
+        "if (l.edges > l.max_edges)",
     ),
     one(
         "crossings-per-subpath",
@@ -96,7 +96,7 @@ PATHS = (
         3,
         "splats begin at z_2, because z_1 is next event estimation's business",
         PICTURES,
-        BDPT,
+        BIDIRECTIONAL,
         "if (!s) { return; }",
         "if (!s || v.edges == 1) { return; }",
     ),
@@ -205,7 +205,7 @@ PATHS = (
         3,
         "shadow rays to the camera end at transparent surfaces",
         CROSSINGS,
-        BDPT,
+        BIDIRECTIONAL,
         "const Connection& c = s->connection;",
         "Connection c = s->connection; c.crossings = settings_.walk.max_crossings;",
     ),

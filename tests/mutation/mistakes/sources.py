@@ -2,6 +2,7 @@
 """Where things are in the source, and what each kind of test is called."""
 
 BDPT = "core/janus/integrator/bdpt.cpp"
+BIDIRECTIONAL = "core/janus/integrator/bidirectional.h"
 BSDF = "core/janus/shading/bsdf.cpp"
 CACHE = "core/janus/integrator/vertex_cache.h"
 CAMERA = "core/janus/camera/camera.h"
@@ -25,4 +26,5 @@ CAPS = "BounceCaps.*"
 CLAMP = "Clamp.*"
 CLEAR_VIEWS = "*ClearView*"
 RAY_TYPES = "*Visibility*:LightRules.*"
+LECTURE = "*Lecture*"
 MERGING = "Merging.*:*MisRecursion*"

@@ -16,8 +16,8 @@ SPECULAR_WALKS = (
         "the camera walk's own light over deltas is not divided among the walks",
         TESTS,
         BDPT,
-        "gather(found.specular ? value * share : value);",
-        "gather(value);",
+        "gather_light(found, found.specular ? share : 1.0f, sample",
+        "gather_light(found, 1.0f, sample",
     ),
     one(
         "all-hits-shared",
@@ -25,8 +25,8 @@ SPECULAR_WALKS = (
         "hits that other techniques find, too, are divided among the walks",
         TESTS,
         BDPT,
-        "gather(found.specular ? value * share : value);",
-        "gather(value * share);",
+        "gather_light(found, found.specular ? share : 1.0f, sample",
+        "gather_light(found, share, sample",
     ),
     Mistake(
         "specular-walks-go-anywhere",
@@ -37,8 +37,8 @@ SPECULAR_WALKS = (
             Edit(BDPT, "specular_.specular = true;", "specular_.specular = false;"),
             Edit(
                 BDPT,
-                "if (found.specular) {\n            sum",
-                "if (found.edges > 1) {\n            sum",
+                "if (found.specular) { gather_light",
+                "if (found.edges > 1) { gather_light",
             ),
         ),
     ),

@@ -6,7 +6,7 @@ from __future__ import annotations
 from mistake import Edit, Mistake, one
 
 from mistakes.sources import (
-    BDPT,
+    BIDIRECTIONAL,
     BSDF,
     BSDFS,
     CACHE,
@@ -202,12 +202,12 @@ VALUES = (
         CLAMP,
         (
             Edit(
-                BDPT,
-                "c, v.edges + 1, roulette_.at(s->raster)",
-                "c, -1, roulette_.at(s->raster)",
+                BIDIRECTIONAL,
+                "c, v.edges + 1, roulettes.at(s->raster)",
+                "c, -1, roulettes.at(s->raster)",
             ),
             Edit(
-                BDPT,
+                BIDIRECTIONAL,
                 "return settings_.clamp(arrived, edges) * scale;",
                 "return (edges < 0 ? arrived : settings_.clamp(arrived, edges)) * scale;",
             ),
@@ -218,16 +218,16 @@ VALUES = (
         14,
         "clamping acts on what a technique alone would add",
         CLAMP,
-        BDPT,
-        "return c.value * c.weight.value;",
-        "return settings_.clamp(c.value, s + t - 1) * c.weight.value;",
+        BIDIRECTIONAL,
+        "arriving(c->value * w, *c, edges,",
+        "arriving(settings_.clamp(c->value, edges) * w, *c, edges,",
     ),
     one(
         "clamped-after-roulette",
         14,
         "clamping cuts what roulette has made larger",
         CLAMP,
-        BDPT,
+        BIDIRECTIONAL,
         "return settings_.clamp(arrived, edges) * scale;",
         "return settings_.clamp(arrived * scale, edges);",
     ),
