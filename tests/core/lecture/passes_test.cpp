@@ -129,6 +129,13 @@ TEST_P(LecturePasses, OfAllPathsSumToThePicture) {
 
 INSTANTIATE_TEST_SUITE_P(Ways, LecturePasses, ::testing::ValuesIn(kWays),
                          [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Merging, LecturePasses,
+                         ::testing::Values([] {
+                           Way merging = way("merging", IntegratorType::Bdpt, 8);
+                           merging.settings.merge_radius = 0.2f;
+                           return merging;
+                         }()),
+                         [](const auto& info) { return info.param.name; });
 
 const std::vector<std::string> kSorted = {
     "LDE",   "LGE",         "LDDE",     "LGDE",        "LDGE",
