@@ -23,7 +23,7 @@ class JANUS_OT_render_strategies(bpy.types.Operator):
         description="Number of edges of the longest paths that are shown. Memory for two pictures "
         "is needed for each technique, and there are 20 at the length of 5",
         min=1,
-        max=16,
+        max=12,
         soft_max=8,
         default=5,
     )

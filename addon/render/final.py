@@ -65,6 +65,8 @@ def _render(engine, depsgraph, frame, result, log) -> dict:
     scene, stats = _build(core, engine, depsgraph, frame, settings, log)
     with _user_errors(core):
         session = core.RenderSession(scene, settings)
+    log.extend(session.diagnostics)
+    log.flush(engine)
     try:
         cancelled = _run(engine, session, settings, result)
         _hand_over(session, depsgraph, result)

@@ -77,6 +77,7 @@ def render_settings(depsgraph) -> dict:
         return cycles_settings.value(scene, name)
 
     filter_type = shared("pixel_filter_type")
+    averages = janus.heuristic == "NONE" and janus.integrator == "BDPT"
     return {
         "width": width,
         "height": height,
@@ -102,8 +103,8 @@ def render_settings(depsgraph) -> dict:
         "connections": janus.connections,
         "merge_radius": janus.merge_radius if merges(janus) else 0.0,
         "adaptive_counts": janus.adaptive_counts,
-        "heuristic": janus.heuristic,
-        "strategies": janus.strategies if janus.heuristic == "NONE" else "",
+        "heuristic": "BALANCE" if janus.heuristic == "NONE" and not averages else janus.heuristic,
+        "strategies": janus.strategies if averages else "",
         "film_exposure": shared("film_exposure"),
         "film_transparent": render.film_transparent,
         "film_transparent_glass": shared("film_transparent_glass"),

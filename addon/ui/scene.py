@@ -67,8 +67,11 @@ class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
         column.active = janus.integrator == "BDPT"
         column.prop(janus, "connection_mode", text="Connections")
         self._draw_counts(column.column(), janus)
-        column.prop(janus, "heuristic")
-        if janus.heuristic == "NONE":
+        row = self.column()  # path tracing weights hits and next event estimation
+        row.active = janus.integrator != "LT"
+        row.prop(janus, "heuristic")
+        if janus.heuristic == "NONE" and janus.integrator == "BDPT":
+            column = self.column()
             column.prop(janus, "strategies", placeholder="All")
             draw_problem(column, janus.strategies_message)
         self.layout.operator("janus.render_strategies")

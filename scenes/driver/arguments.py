@@ -106,7 +106,7 @@ def _parser() -> argparse.ArgumentParser:
         help="paths must hit lights, and light paths the camera's aperture, by chance",
     )
     add("--connection-mode", choices=CONNECTION_MODES, help="bdpt: light vertex cache, or pairs")
-    add("--heuristic", choices=HEURISTICS, help="bdpt: weights; none: the mean of the strategies")
+    add("--heuristic", choices=HEURISTICS, help="weights; none: bdpt's strategies, averaged")
     add(
         "--strategy",
         metavar="'S,T ...'",
@@ -138,7 +138,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add(
         "--strategies-length",
-        type=_from_to(int, 1, 16),
+        type=_from_to(int, 1, 12),
         default=5,
         metavar="N",
         help="edges of the longest paths that are shown (default: 5)",

@@ -14,6 +14,10 @@ from scenes.driver.setup import Problem
 
 def prepare(scene: bpy.types.Scene, options: argparse.Namespace, addon: Addon) -> None:
     """Before the render. A pass that the scene has already gets the expression that was given."""
+    names = [name for name, _ in options.passes]
+    for name in names:
+        if names.count(name) > 1:
+            raise Problem(f"--pass gives two expressions for '{name}'")
     for layer in scene.view_layers:
         expressions = layer.janus.expressions
         for name, text in options.passes:

@@ -110,6 +110,8 @@ class FakeCore:
 class FakeSession:
     """Finishes one sample with each wait()."""
 
+    diagnostics: tuple = ()
+
     def __init__(self, core, settings):
         self.core, self.settings = core, settings
         self.samples, self.cancelled, self.snapshots = 0, False, 0

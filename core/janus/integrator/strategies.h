@@ -31,6 +31,27 @@ class Strategies {
   // for the user, for what is no strategy or none that bdpt has.
   static Strategies parse(std::string_view text);
 
+  // Which of them a render makes at all: those with next event estimation (s=1), with connections
+  // (s, t > 1), and those that splat (t=1).
+  void limit(bool next_event, bool connections, bool splats) {
+    next_event_ = next_event;
+    connections_ = connections;
+    splats_ = splats;
+  }
+  // Is one of them made?
+  bool any() const {
+    return std::ranges::any_of(patterns_, [&](const Pattern& p) {
+      for (const int s : {0, 1, 2}) {  // each kind once
+        for (const int t : {1, 2}) {
+          if (s + t > 1 && made(p.s == kAny ? s : p.s, p.t == kAny ? t : p.t)) {
+            return true;
+          }
+        }
+      }
+      return false;
+    });
+  }
+
   // The part of a path's light that strategy (s,t) finds; 0 if it was not chosen.
   float weight(int s, int t) const {
     if (!chosen(s, t)) {
@@ -39,7 +60,7 @@ class Strategies {
     const int vertices = s + t;
     int count = 0;
     for (int i = 0; i < vertices; ++i) {
-      count += chosen(i, vertices - i) && !(i == 1 && vertices == 2) ? 1 : 0;
+      count += chosen(i, vertices - i) ? 1 : 0;
     }
     return 1.0f / static_cast<float>(count);
   }
@@ -60,7 +81,16 @@ class Strategies {
 
   Strategies(int s, int t, std::string text) : text_(std::move(text)), patterns_{{s, t}} {}
 
+  bool made(int s, int t) const {
+    if (s == 0) {
+      return t > 1;
+    }
+    return t == 1 ? s > 1 && splats_ : s == 1 ? next_event_ : connections_;
+  }
   bool chosen(int s, int t) const {
+    if (!made(s, t)) {
+      return false;
+    }
     for (const Pattern& p : patterns_) {
       if ((p.s == kAny || p.s == s) && (p.t == kAny || p.t == t)) {
         return true;
@@ -71,6 +101,7 @@ class Strategies {
 
   std::string text_;
   std::vector<Pattern> patterns_;
+  bool next_event_ = true, connections_ = true, splats_ = true;
 };
 
 }  // namespace janus

@@ -189,17 +189,23 @@ class Parser {
     return pattern;
   }
 
-  // A name, from its opening character to `end`.
+  // A name, from its opening character to `end`. What follows a backslash is part of it.
   std::string quoted(char end) {
-    const size_t begin = ++at_;
-    at_ = std::min(text_.find(end, begin), text_.size());
-    if (at_ == text_.size()) {
+    std::string name;
+    while (++at_ < text_.size() && text_[at_] != end) {
+      if (text_[at_] == '\\' && at_ + 1 < text_.size()) {
+        ++at_;
+      }
+      name += text_[at_];
+    }
+    if (at_ >= text_.size()) {
       fail(std::string("a closing ") + end + " is missing");
     }
-    if (at_ == begin) {
+    if (name.empty()) {
       fail("a name is missing");
     }
-    return std::string(text_.substr(begin, at_++ - begin));
+    ++at_;
+    return name;
   }
 
   static void append(std::vector<int>& to, const std::vector<int>& more) {

@@ -12,6 +12,7 @@
 //   L'Lamp'  L{Key}   the light (or the object that shines, or the world) of that name; those of a
 //                     light group
 //   B  O              the background; all other lights
+//   'Bob\'s'          a backslash before a character that would end the name
 //
 // An expression is read from the light to the eye. `^` before an operator and spaces mean nothing,
 // so that LS^+DE can be typed as it is printed.

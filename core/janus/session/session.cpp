@@ -36,9 +36,27 @@ RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings 
       settings_((settings.validate(), std::move(settings))),
       passes_(settings_, *scene_),
       diagnostics_(passes_.diagnostics()) {
+  check_strategies();
   check_lights();
   film_.emplace(settings_.rect(), Filter(settings_.filter, settings_.filter_width),
                 passes_.layers().count());
+}
+
+// Those without which the settings leave nothing to render.
+void RenderSession::check_strategies() {
+  if (!settings_.strategies) {
+    return;
+  }
+  const bool classic = settings_.connection_mode == ConnectionMode::Classic;
+  const bool light_paths = classic || settings_.light_paths > 0.0f;
+  settings_.strategies->limit(settings_.next_event,
+                              classic || (light_paths && settings_.connections > 0.0f),
+                              light_paths);
+  if (!settings_.strategies->any()) {
+    throw SceneError("settings", "strategies",
+                     "none of the chosen strategies is left: next event estimation (s=1), light "
+                     "paths (t=1) or connections are switched off");
+  }
 }
 
 // Some strategies need what can be hit.

@@ -68,6 +68,7 @@ class RenderSession {
   void finish();
 
  private:
+  void check_strategies();
   void check_lights();
   void run();
   void end(Progress::State state, std::exception_ptr error);

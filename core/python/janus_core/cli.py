@@ -133,10 +133,11 @@ def _run(options: argparse.Namespace) -> int:
             "settings": settings.to_dict(),
             "diagnostics": [describe(found) for found in scene.diagnostics],
         }
+        session = RenderSession(scene, settings)
+        stats["diagnostics"] += [describe(found) for found in session.diagnostics]
         if not options.quiet:
             for text in stats["diagnostics"]:
                 print(text, file=sys.stderr)
-        session = RenderSession(scene, settings)
         error = _render(session, settings, options.quiet, stop)
     stats |= session.stats()
     stats["cancelled"] = stop()

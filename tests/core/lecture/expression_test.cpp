@@ -258,7 +258,7 @@ TEST(LectureExpressions, KnowNamesAndGroups) {
   }
   ASSERT_EQ(lights.size(), 3u);
   std::vector<Expression> expressions;
-  for (const char* text : {"L'lamp'.*E", "L{Key}.*E", "BD*E", "O.*E", "LD'box'D'block'E",
+  for (const char* text : {"L'la\\mp'.*E", "L{Key}.*E", "BD*E", "O.*E", "LD'box'D'block'E",
                            "L.'box'*E", "L'nobody'D'nothing'E"}) {
     expressions.push_back(parse_expression(text));
   }

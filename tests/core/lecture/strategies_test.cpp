@@ -43,6 +43,27 @@ TEST(LectureStrategies, SayWhatIsImpossible) {
   }
 }
 
+TEST(LectureStrategies, AreAveragedOverThoseThatAreMade) {
+  Strategies some = Strategies::parse("1,* 2,*");
+  EXPECT_FLOAT_EQ(some.weight(2, 2), 0.5f);
+  some.limit(false, true, true);
+  EXPECT_FLOAT_EQ(some.weight(1, 3), 0.0f);
+  EXPECT_FLOAT_EQ(some.weight(2, 2), 1.0f);
+  some.limit(false, false, true);
+  EXPECT_FLOAT_EQ(some.weight(2, 2), 0.0f);
+  EXPECT_FLOAT_EQ(some.weight(2, 1), 1.0f);
+  EXPECT_TRUE(some.any());
+  some.limit(false, false, false);
+  EXPECT_FALSE(some.any());
+  EXPECT_TRUE(Strategies::parse("9,9").any());
+
+  const auto scene = room().light("l", point_light({0, 0, 0.5f}, 5, 0.1f)).build();
+  RenderSettings settings = small_picture(IntegratorType::Bdpt, 1);
+  settings.strategies = Strategies::parse("1,*");
+  settings.next_event = false;
+  EXPECT_THROW(RenderSession(scene, settings), SceneError);
+}
+
 // --- Options that leave the picture as it is
 // ------------------------------------------------------
 

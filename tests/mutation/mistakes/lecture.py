@@ -35,8 +35,8 @@ LECTURE_MADE_VISIBLE = (
         "light straight into the camera has two strategies in an average",
         LECTURE,
         STRATEGIES,
-        "&& !(i == 1 && vertices == 2)",
-        "",
+        "return t == 1 ? s > 1 && splats_",
+        "return t == 1 ? splats_",
     ),
     one(
         "classic-splats-per-pixel",
