@@ -88,7 +88,9 @@ def light_passes(layer) -> list[Pass]:
 def expressions(layer) -> list[tuple[str, str]]:
     """(name of the pass, expression): ready-made ones, light groups, the user's."""
     found = [(name, text) for toggle, name, text in READY_MADE if getattr(layer.janus, toggle)]
-    found += [(f"Combined_{group.name}", f"L{{{quoted(group.name)}}}.*E") for group in layer.lightgroups]
+    found += [
+        (f"Combined_{group.name}", f"L{{{quoted(group.name)}}}.*E") for group in layer.lightgroups
+    ]
     found += [
         (item.name, item.expression)
         for item in layer.janus.expressions

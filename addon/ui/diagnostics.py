@@ -29,6 +29,20 @@ def draw_text(layout, text: str, icon: str) -> None:
         column.label(text=line, icon="BLANK1" if number else icon)
 
 
+def banner_text(context) -> str:
+    """The one sentence of the banner, empty if all is well."""
+    if bridge.failure():
+        return bridge.failure()
+    found = [entry.severity for entry, _ in report.kept(context.scene.name_full)]
+    if "ERROR" in found:
+        return "The last render failed: see Janus Report"
+    warnings = found.count("WARNING")
+    if warnings:
+        things = "1 thing" if warnings == 1 else f"{warnings} things"
+        return f"The last render left out {things}: see Janus Report"
+    return ""
+
+
 class JANUS_RENDER_PT_banner(JanusPanel, bpy.types.Panel):
     bl_label = ""
     bl_context = "render"
@@ -36,26 +50,12 @@ class JANUS_RENDER_PT_banner(JanusPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        return super().poll(context) and cls.text(context) != ""
-
-    @staticmethod
-    def text(context) -> str:
-        """The one sentence of the banner, empty if all is well."""
-        if bridge.failure():
-            return bridge.failure()
-        found = [entry.severity for entry, _ in report.kept(context.scene.name_full)]
-        if "ERROR" in found:
-            return "The last render failed: see Janus Report"
-        warnings = found.count("WARNING")
-        if warnings:
-            things = "1 thing" if warnings == 1 else f"{warnings} things"
-            return f"The last render left out {things}: see Janus Report"
-        return ""
+        return super().poll(context) and banner_text(context) != ""
 
     def draw(self, context):
         box = self.layout.box()
         box.alert = True
-        draw_text(box, self.text(context), "ERROR")
+        draw_text(box, banner_text(context), "ERROR")
 
 
 class JANUS_RENDER_PT_notice(JanusPanel, bpy.types.Panel):

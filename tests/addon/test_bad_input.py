@@ -240,12 +240,12 @@ def test_bad_input(lit, case):
 
 @pytest.mark.parametrize("case", [volume_object, volume_and_displacement])
 def test_what_is_left_out_is_in_the_banner(lit, case):
-    banner = bpy.types.JANUS_RENDER_PT_banner
+    banner_text = part("ui.diagnostics").banner_text
     render()
-    assert banner.text(bpy.context) == ""
+    assert banner_text(bpy.context) == ""
     case(lit)
     render()
-    assert "left out" in banner.text(bpy.context)
+    assert "left out" in banner_text(bpy.context)
 
 
 def test_no_camera(lit):

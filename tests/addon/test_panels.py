@@ -160,3 +160,13 @@ def test_in_the_render_menu_of_janus(scene, engine, shown):
     menu = SimpleNamespace(layout=layout)
     part("operators.strategies")._draw_in_menu(menu, SimpleNamespace(scene=scene))
     assert ("janus.render_strategies" in layout.drawn) == shown
+
+
+def test_no_panel_hides_what_blender_keeps_in_it(addon):
+    """An attribute that a Panel of Blender has is the user's text, not ours, in a drawn panel."""
+    kept = {p.identifier for p in bpy.types.Panel.bl_rna.properties}
+    kept = {name for name in kept if not name.startswith("bl_")} | {"layout", "text", "is_popover"}
+    ours = [cls for cls in bpy.types.Panel.__subclasses__() if cls.__name__.startswith("JANUS_")]
+    assert len(ours) > 10
+    for cls in ours:
+        assert not kept & set(vars(cls)), cls.__name__

@@ -49,9 +49,8 @@ void RenderSession::check_strategies() {
   }
   const bool classic = settings_.connection_mode == ConnectionMode::Classic;
   const bool light_paths = classic || settings_.light_paths > 0.0f;
-  settings_.strategies->limit(settings_.next_event,
-                              classic || (light_paths && settings_.connections > 0.0f),
-                              light_paths);
+  settings_.strategies->limit(
+      settings_.next_event, classic || (light_paths && settings_.connections > 0.0f), light_paths);
   if (!settings_.strategies->any()) {
     throw SceneError("settings", "strategies",
                      "none of the chosen strategies is left: next event estimation (s=1), light "

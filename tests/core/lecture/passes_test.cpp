@@ -129,8 +129,7 @@ TEST_P(LecturePasses, OfAllPathsSumToThePicture) {
 
 INSTANTIATE_TEST_SUITE_P(Ways, LecturePasses, ::testing::ValuesIn(kWays),
                          [](const auto& info) { return info.param.name; });
-INSTANTIATE_TEST_SUITE_P(Merging, LecturePasses,
-                         ::testing::Values([] {
+INSTANTIATE_TEST_SUITE_P(Merging, LecturePasses, ::testing::Values([] {
                            Way merging = way("merging", IntegratorType::Bdpt, 8);
                            merging.settings.merge_radius = 0.2f;
                            return merging;
