@@ -54,6 +54,29 @@ class JANUS_RENDER_PT_light_paths_clamping(JanusPanel, bpy.types.Panel):
         column.prop(context.scene.janus, "sample_clamp_indirect", text="Indirect Light")
 
 
+def impossible(scene) -> str:
+    """What paths without next event estimation cannot find at all in this scene."""
+    janus, camera = scene.janus, scene.camera and scene.camera.data
+    if janus.integrator == "LT" and not janus.next_event and camera:
+        if camera.type != "PERSP" or not camera.dof.use_dof:
+            return "Light paths cannot hit this camera (t=0): it has no Depth of Field"
+    if janus.integrator == "PT" and not janus.next_event:
+        return not_hit()
+    return ""
+
+
+def not_hit() -> str:
+    """What paths that hit lights (s=0) cannot find."""
+    points = [light.name for light in bpy.data.lights if light.users and is_point(light)]
+    return f"No path hits a light without a size (s=0), such as '{points[0]}'" if points else ""
+
+
+def is_point(light) -> bool:
+    if light.type == "SUN":
+        return light.angle == 0.0
+    return light.type in ("POINT", "SPOT") and light.shadow_soft_size == 0.0
+
+
 class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
     bl_label = "Bidirectional"
     bl_context = "render"
@@ -63,6 +86,7 @@ class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
         column = self.column()
         column.prop(janus, "integrator")
         column.prop(janus, "next_event")
+        draw_problem(column, impossible(context.scene))
         column = column.column()
         column.active = janus.integrator == "BDPT"
         column.prop(janus, "connection_mode", text="Connections")
@@ -73,7 +97,9 @@ class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
         if janus.heuristic == "NONE" and janus.integrator == "BDPT":
             column = self.column()
             column.prop(janus, "strategies", placeholder="All")
-            draw_problem(column, janus.strategies_message)
+            words = janus.strategies.split()
+            only_hits = bool(words) and all(word.startswith("0,") for word in words)
+            draw_problem(column, janus.strategies_message or (not_hit() if only_hits else ""))
         self.layout.operator("janus.render_strategies")
 
     @staticmethod

@@ -162,6 +162,38 @@ def test_in_the_render_menu_of_janus(scene, engine, shown):
     assert ("janus.render_strategies" in layout.drawn) == shown
 
 
+def test_what_the_scene_makes_impossible_is_said_at_the_field(scene, fake_core):
+    name = "JANUS_RENDER_PT_bidirectional"
+
+    def said():
+        drawn = draw(name)
+        after = drawn[drawn.index("next_event") + 1]
+        return after[0] if isinstance(after, tuple) else ""
+
+    janus = scene.janus
+    janus.integrator = "LT"
+    assert said() == ""
+    janus.next_event = False
+    assert "(t=0)" in said()
+    scene.camera.data.dof.use_dof = True
+    assert said() == ""
+    scene.camera.data.type = "ORTHO"
+    assert "(t=0)" in said()
+    janus.integrator = "PT"
+    lamp = bpy.data.lights.new("Bulb", "POINT")
+    lamp.shadow_soft_size = 0.0
+    assert said() == ""  # it is nowhere
+    scene.collection.objects.link(bpy.data.objects.new("Bulb", lamp))
+    assert "'Bulb'" in said()
+    janus.integrator, janus.heuristic, janus.strategies = "BDPT", "NONE", "0,* 0,3"
+    assert ("No path hits a light without a size (s=0), such as 'Bulb'", "ERROR", True) in draw(
+        name
+    )
+    janus.integrator = "PT"
+    lamp.shadow_soft_size = 0.1
+    assert said() == ""
+
+
 def test_no_panel_hides_what_blender_keeps_in_it(addon):
     """An attribute that a Panel of Blender has is the user's text, not ours, in a drawn panel."""
     kept = {p.identifier for p in bpy.types.Panel.bl_rna.properties}
