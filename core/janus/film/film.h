@@ -55,6 +55,12 @@ class Film {
  public:
   Film(FilmRect rect, Filter filter, size_t layers = 0);
 
+  // What one takes, bytes.
+  static size_t bytes(const FilmRect& rect, size_t layers) {
+    const size_t picture = sizeof(vec4) + sizeof(Rgb) + sizeof(glm::dvec4);
+    return rect.pixels() * (picture + layers * (sizeof(Rgb) + sizeof(glm::dvec3)));
+  }
+
   const FilmRect& rect() const { return rect_; }
   const Filter& filter() const { return filter_; }
   size_t layers() const { return layer_count_; }

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "janus/util/error.h"
+#include "janus/util/memory.h"
 
 namespace janus {
 
@@ -36,10 +37,26 @@ RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings 
       settings_((settings.validate(), std::move(settings))),
       passes_(settings_, *scene_),
       diagnostics_(passes_.diagnostics()) {
+  check_memory();
   check_strategies();
   check_lights();
   film_.emplace(settings_.rect(), Filter(settings_.filter, settings_.filter_width),
                 passes_.layers().count());
+}
+
+// A system that promises more than it has would end the process later, and Blender with it.
+void RenderSession::check_memory() const {
+  const size_t most = physical_memory();
+  const size_t needed = Film::bytes(settings_.rect(), passes_.layers().count());
+  if (most > 0 && needed > most / 10 * 9) {
+    const auto gigabytes = [](size_t bytes) { return std::to_string((bytes >> 30) + 1) + " GB"; };
+    throw SceneError("settings", "passes",
+                     "the picture with its " + std::to_string(passes_.layers().count()) +
+                         " layers would take " + gigabytes(needed) + ", and the machine has " +
+                         gigabytes(most) +
+                         ": render fewer passes, shorter strategies or less "
+                         "resolution");
+  }
 }
 
 // Those without which the settings leave nothing to render.

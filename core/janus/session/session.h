@@ -68,6 +68,7 @@ class RenderSession {
   void finish();
 
  private:
+  void check_memory() const;
   void check_strategies();
   void check_lights();
   void run();

@@ -388,6 +388,19 @@ INSTANTIATE_TEST_SUITE_P(Modes, LecturePyramid,
                            return info.param == ConnectionMode::Cache ? "cache" : "classic";
                          });
 
+// Sixty thousand pixels a side with all strategies: some terabytes.
+TEST(LecturePyramids, AreRefusedWhereTheyDoNotFit) {
+  RenderSettings settings = small_picture(IntegratorType::Bdpt, 1);
+  settings.width = settings.height = 60000;
+  settings.strategy_images = 12;
+  try {
+    RenderSession session(glass_room().build(), settings);
+    ADD_FAILURE() << "it fits";
+  } catch (const SceneError& error) {
+    EXPECT_NE(error.message.find("GB"), std::string::npos) << error.message;
+  }
+}
+
 TEST(LecturePyramids, AreForBdptAlone) {
   RenderSettings settings = small_picture(IntegratorType::PathTracer, 1);
   settings.strategy_images = 3;
