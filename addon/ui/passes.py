@@ -128,8 +128,9 @@ def draw_light_group(layout, owner, view_layer) -> None:
 
 class JANUS_OBJECT_PT_lightgroup(JanusPanel, bpy.types.Panel):
     bl_label = "Light Group"
-    bl_parent_id = "OBJECT_PT_shading"
     bl_context = "object"
+    if hasattr(bpy.types, "OBJECT_PT_shading"):  # not in Blender 4.2, where it is Cycles' own
+        bl_parent_id = "OBJECT_PT_shading"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
