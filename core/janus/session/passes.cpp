@@ -67,7 +67,11 @@ RenderPasses::RenderPasses(const RenderSettings& settings, const Scene& scene) {
       throw SceneError("settings", "expressions", error.what());
     }
     for (const std::string& name : automaton_->unknown_names()) {
-      diagnostics_.push_back({Severity::Warning, "", "", "",
+      // A light group may well be empty.
+      const bool group = std::ranges::any_of(expressions, [&](const Expression& e) {
+        return std::ranges::find(e.symbols, name, &VertexPattern::group) != e.symbols.end();
+      });
+      diagnostics_.push_back({group ? Severity::Info : Severity::Warning, "", "", "",
                               "a light path expression names '" + name +
                                   "', but no object, light or light group is called that"});
     }

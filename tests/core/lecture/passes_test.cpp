@@ -338,6 +338,9 @@ TEST(LecturePassesRefuse, WhatCannotBe) {
   RenderSession session(scene, settings);
   ASSERT_EQ(session.diagnostics().size(), 1u);
   EXPECT_NE(session.diagnostics()[0].message.find("'Nobody'"), std::string::npos);
+  EXPECT_EQ(session.diagnostics()[0].severity, Severity::Warning);
+  settings.expressions = {{"A", "L{Nobody}E"}};
+  EXPECT_EQ(RenderSession(scene, settings).diagnostics().at(0).severity, Severity::Info);
   EXPECT_THROW(session.snapshot("B"), Error);
 }
 
