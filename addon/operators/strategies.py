@@ -21,7 +21,7 @@ class JANUS_OT_render_strategies(bpy.types.Operator):
     length: IntProperty(
         name="Longest Path",
         description="Number of edges of the longest paths that are shown. Memory for two pictures "
-        "is needed for each technique, and there are 20 at the length of 5",
+        "is needed for each technique, and there are 19 at the length of 5",
         min=1,
         max=12,
         soft_max=8,

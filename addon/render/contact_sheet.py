@@ -16,7 +16,7 @@ TILE = 160  # pixels: about the width of a tile
 GAP = 12
 SCALE = 2  # of the glyphs
 LINE = (HEIGHT + 4) * SCALE
-MARGIN = GAP + ADVANCE * len("16 edges") * SCALE + GAP
+MARGIN = GAP + ADVANCE * len("12 edges") * SCALE + GAP
 PAPER, INK = 0.13, 0.85  # display values
 HEADINGS = (("weighted", "weighted"), ("alone", "unweighted"))
 

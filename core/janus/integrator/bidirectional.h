@@ -74,19 +74,6 @@ class BidirectionalIntegrator : public PassIntegrator {
                             });
   }
 
-  // The light's side of paths that start with nothing but light `index`.
-  WeightedState light_state(size_t index) const {
-    const PathAutomaton* automaton = settings_.walk.expressions;
-    return {automaton ? automaton->from_light(index) : PathAutomaton::kDead, Rgb(1.0f)};
-  }
-  static std::span<const WeightedState> states(const PathTrace* trace) {
-    return trace ? trace->states.all() : std::span<const WeightedState>();
-  }
-  // Where joins keep what is to be read, if anybody reads.
-  UnreadVertices* reads(UnreadVertices& unread) const {
-    return settings_.walk.expressions ? &unread : nullptr;
-  }
-
   // s=0. `share`: of what is found over deltas alone.
   Rgb gather_light(const LightFound& found, float share, Sample& sample, Counters& counters) {
     const Technique technique{0, found.edges + 1};

@@ -18,19 +18,11 @@ class CameraTrace {
   CameraTrace(const Scene& scene, const PathRules& rules, std::span<Rgb> layers)
       : scene_(scene), rules_(rules), layers_(layers), trace_(rules.expressions->from_camera()) {}
 
-  // The walk goes on from `vertex`, whose event has got `label`. Draws numbers of its own, as in
-  // path/subpath.cpp.
+  // The walk goes on from `vertex`, whose event has got `label`.
   [[gnu::noinline]] void read(const UnreadVertex& vertex, RayType label, int edges,
-                              Sampler sampler) {
-    sampler.start_block((1U << 20) + static_cast<uint32_t>(edges));
-    trace_.vertex = vertex;
-    trace_.before = trace_.states;
-    UnreadVertex read = vertex;
-    if (rules_.ray_types) {
-      read.shares = read.shares.labelled(label);
-    }
-    trace_.states = trace_.before.after(
-        read,
+                              const Sampler& sampler) {
+    trace_.go_on(
+        vertex, rules_.ray_types ? vertex.shares.labelled(label) : vertex.shares, edges,
         [&](PathAutomaton::State state, int event, uint32_t instance) {
           return rules_.expressions->reverse(state, event, instance);
         },

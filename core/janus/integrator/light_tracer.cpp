@@ -75,12 +75,8 @@ class LightTracer final : public PassIntegrator {
     const Rgb value =
         settings_.clamp(v.beta * lens->importance / static_cast<float>(count), v.edges + 1);
     if (usable(value, counters)) {
-      add_splat(lens->raster, value, {states(v), camera_state(), {}});
+      add_splat(lens->raster, value, {states(v.trace), camera_state(), {}});
     }
-  }
-
-  static std::span<const WeightedState> states(const PathVertex& v) {
-    return v.trace ? v.trace->states.all() : std::span<const WeightedState>();
   }
 
   // Adds the parts of `value` to the layers of the expressions that its path matches.
@@ -97,9 +93,8 @@ class LightTracer final : public PassIntegrator {
   void splat(const PathVertex& v, Sampler& sampler, float margin, size_t count, Counters& counters,
              AddSplat&& add_splat) const {
     UnreadVertices unread;
-    const auto s =
-        connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_, settings_.walk,
-                          settings_.walk.expressions ? &unread : nullptr);
+    const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_,
+                                     settings_.walk, reads(unread));
     const int crossings = settings_.walk.max_crossings - v.crossings;
     if (!s || crossings < 0 || !usable(s->connection.value, counters)) {
       return;
@@ -110,7 +105,7 @@ class LightTracer final : public PassIntegrator {
         c.value * context_.scene.transmittance(c.from, c.to, c.type, crossings, c.camera);
     if (!is_black(value)) {
       add_splat(s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1),
-                {states(v), camera_state(), unread});
+                {states(v.trace), camera_state(), unread});
     }
   }
 
@@ -133,8 +128,7 @@ class LightTracer final : public PassIntegrator {
                 const Rgb value = settings_.clamp(found.beta * found.hit.radiance, 1);
                 sum += value;
                 if (settings_.walk.expressions && is_finite(value)) {
-                  const WeightedState light{settings_.walk.expressions->from_light(found.light),
-                                            Rgb(1.0f)};
+                  const WeightedState light = light_state(found.light);
                   const std::span<Rgb> layers = context_.film.layers_at(i);
                   sort(value, path_of_light(found, light), [&](LayerMask mask, Rgb part) {
                     mask.for_each([&](size_t layer) { layers[layer] += part; });

@@ -39,6 +39,20 @@ class PassIntegrator : public Integrator {
   // The camera's side of paths that end at nothing but the camera.
   std::span<const WeightedState> camera_state() const { return camera_state_.all(); }
 
+  // The light's side of paths that start with nothing but light `index`.
+  WeightedState light_state(size_t index) const {
+    const PathAutomaton* automaton = settings_.walk.expressions;
+    return {automaton ? automaton->from_light(index) : PathAutomaton::kDead, Rgb(1.0f)};
+  }
+  // What was read of a subpath before its present vertex.
+  static std::span<const WeightedState> states(const PathTrace* trace) {
+    return trace ? trace->states.all() : std::span<const WeightedState>();
+  }
+  // Where joins keep what is to be read, if anybody reads.
+  UnreadVertices* reads(UnreadVertices& unread) const {
+    return settings_.walk.expressions ? &unread : nullptr;
+  }
+
   // A path to a light that a camera walk has found; `light`: its state.
   SortedPath path_of_light(const LightFound& found, const WeightedState& light) const {
     if (!found.trace) {

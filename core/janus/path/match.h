@@ -98,6 +98,18 @@ struct PathTrace {
   UnreadVertex vertex;  // the last one
 
   explicit PathTrace(PathAutomaton::State start) : states(start) {}
+
+  // The subpath goes on from `at`, its vertex number `edges`, of whose shares `read` count for what
+  // comes next. Numbers are drawn apart: the picture does not depend on who looks at it.
+  template <class Next>
+  void go_on(const UnreadVertex& at, const ScatterShares& read, int edges, Next&& next,
+             Sampler sampler) {
+    constexpr uint32_t kBlock = 1 << 20;  // far beyond those of vertices
+    sampler.start_block(kBlock + static_cast<uint32_t>(edges));
+    vertex = at;
+    before = states;
+    states = before.after({at.instance, read}, next, sampler);
+  }
 };
 
 // The vertices of a finished path that neither side has read, from the light to the camera.

@@ -4,21 +4,16 @@
 namespace janus {
 
 void read_event(const PathVertex& v, const BsdfSample& sample, TransportMode mode,
-                const WalkSettings& settings, Sampler sampler, RayType label) {
-  constexpr uint32_t kBlock = 1 << 20;  // far beyond those of vertices
-  sampler.start_block(kBlock + static_cast<uint32_t>(v.edges));
+                const WalkSettings& settings, const Sampler& sampler, RayType label) {
   const bool importance = mode == TransportMode::Importance;
-  PathTrace& trace = *v.trace;
-  trace.vertex = {v.hit.instance, ScatterShares::sampled(sample)};
-  trace.before = trace.states;
-  UnreadVertex vertex = trace.vertex;
+  const UnreadVertex vertex{v.hit.instance, ScatterShares::sampled(sample)};
+  ScatterShares read = vertex.shares;
   if (settings.ray_types) {  // what comes next was met by this label
-    vertex.shares =
-        importance && v.edges == 1 ? vertex.shares.lit(v.source) : vertex.shares.labelled(label);
+    read = importance && v.edges == 1 ? read.lit(v.source) : read.labelled(label);
   }
   const PathAutomaton& automaton = *settings.expressions;
-  trace.states = trace.before.after(
-      vertex,
+  v.trace->go_on(
+      vertex, read, v.edges,
       [&](PathAutomaton::State state, int event, uint32_t instance) {
         return importance ? automaton.forward(state, event, instance)
                           : automaton.reverse(state, event, instance);

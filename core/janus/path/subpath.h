@@ -46,10 +46,9 @@ struct WalkStep {
   }
 };
 
-// Takes the expressions past `v`, whose event has got `label`. Numbers are drawn apart: the picture
-// does not depend on who looks at it.
+// Takes the expressions past `v`, whose event has got `label`.
 void read_event(const PathVertex& v, const BsdfSample& sample, TransportMode mode,
-                const WalkSettings& settings, Sampler sampler, RayType label);
+                const WalkSettings& settings, const Sampler& sampler, RayType label);
 
 // Scatters at `v`, applies roulette and writes `step`. `start`: throughput 1 of this walk;
 // `eta_scale`: product of the refractions so far. False when the walk ends.

@@ -31,21 +31,10 @@ RenderSettings limited(RenderSettings settings, const Limits& limits) {
 // --- Known answers
 // --------------------------------------------------------------------------------
 
-// Walls that emit 1 and scatter a share by a Lambert lobe and one by a mirror: all radiance is a
-// sum over the words of the two letters, whose last one is not counted.
+// Of each word, the last letter is not counted.
 TEST(BounceCaps, CountWords) {
   constexpr double kDiffuse = 0.5 * 0.8, kMirror = 0.5 * 0.9;
-  NodeGraph walls = combine("MIX_SHADER", diffuse(Rgb(0.8f)), mirror(Rgb(0.9f)));
-  walls.nodes.push_back(emission(Rgb(1), 1).nodes.front());
-  walls.nodes.back().name = "Light";
-  walls.nodes.push_back(
-      node("Sum", "ADD_SHADER",
-           {{"Shader", link("Top", "Shader")}, {"Shader_001", link("Light", "Emission")}}));
-  walls.surface = NodeLink{"Sum", "Shader"};
-  const auto scene = SceneKit()
-                         .add("box", cuboid(vec3(-1), vec3(1)), walls)
-                         .camera({0, -0.8f, 0.1f}, {0, 1, 0}, 0.4f)
-                         .build();
+  const auto scene = box_of_words(kDiffuse, kMirror).build();
   const auto binomial = [](int n, int k) {
     double product = 1.0;
     for (int i = 0; i < k; ++i) {

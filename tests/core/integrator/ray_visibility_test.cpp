@@ -33,11 +33,6 @@ const Hidden kHidden[] = {
     {"all_but_glossy", ray_bit(RayType::Glossy)},
 };
 
-NodeGraph plastic(Rgb color, float roughness) {
-  return combine(
-      "ADD_SHADER", diffuse(color),
-      single("BSDF_GLOSSY", {{"Color", vec4(0.4f, 0.3f, 0.2f, 1)}, {"Roughness", roughness}}));
-}
 NodeGraph leaf() {
   return combine("MIX_SHADER", plastic(Rgb(0.7f), 0.6f),
                  single("BSDF_GLASS", {{"Roughness", 0.6f}, {"IOR", 1.4f}}));

@@ -3,14 +3,16 @@
 // Light path expressions: what can be typed, and the automaton against a matcher of its own.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <random>
 #include <set>
 
-#include "janus/path/automaton.h"
+#include "janus/path/match.h"
 #include "janus/util/error.h"
 #include "support/scene_kit.h"
+#include "support/statistics.h"
 
 namespace janus::test {
 namespace {
@@ -278,6 +280,50 @@ TEST(LectureExpressions, KnowNamesAndGroups) {
   EXPECT_EQ(of("point", {block, box}), 0b0001000u);
   EXPECT_EQ(of("World", {box, box}), 0b0100100u);
   EXPECT_EQ(automaton.unknown_names(), (std::vector<std::string>{"nobody", "nothing"}));
+}
+
+// Four vertices of two kinds, all of whose words are told apart: sixteen states, for which there is
+// no room. What is left of them is right on average.
+TEST(LectureExpressions, DroppedStatesAreMadeUpFor) {
+  BsdfEval half;
+  half.f = Rgb(1.0f);
+  half.diffuse = Rgb(0.5f, 0.25f, 0.75f);
+  const UnreadVertex vertex{0, ScatterShares::joined(half, false)};
+  const auto next = [](PathAutomaton::State state, int event, uint32_t) {
+    const bool diffuse = event == scatter_event(Scattering::Diffuse, false);
+    return static_cast<PathAutomaton::State>(2 * state + (diffuse ? 1 : 0));
+  };
+  std::map<PathAutomaton::State, std::array<Mean, 3>> shares;
+  size_t most = 0;
+  for (uint64_t i = 0; i < 20000; ++i) {
+    Sampler sampler(3, Stream::Pilot, i, 0);
+    sampler.start_block(0);
+    PathStates states(1);
+    for (int k = 0; k < 4; ++k) {
+      states = states.after(vertex, next, sampler);
+      most = std::max(most, states.all().size());
+    }
+    for (PathAutomaton::State word = 16; word < 32; ++word) {
+      Rgb share(0.0f);
+      for (const WeightedState& s : states.all()) {
+        share += s.state == word ? s.share : Rgb(0.0f);
+      }
+      for (int c = 0; c < 3; ++c) {
+        shares[word][c].add(share[c]);
+      }
+    }
+  }
+  EXPECT_EQ(most, 6u);
+  for (const auto& [word, means] : shares) {
+    for (int c = 0; c < 3; ++c) {
+      double expected = 1.0;
+      for (int k = 0; k < 4; ++k) {
+        expected *= (word >> k & 1) != 0 ? half.diffuse[c] : 1.0 - half.diffuse[c];
+      }
+      EXPECT_LT(std::abs(z_score(means[c], expected)), 4.8) << word << ", channel " << c;
+      EXPECT_LT(means[c].error(), 0.1 * expected);
+    }
+  }
 }
 
 TEST(LectureExpressions, AreRefusedWhereTheyExplode) {

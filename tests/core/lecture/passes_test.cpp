@@ -46,12 +46,6 @@ std::map<std::string, Mean> means(const std::shared_ptr<const Scene>& scene,
   return sums;
 }
 
-NodeGraph plastic(Rgb color, float roughness) {
-  return combine(
-      "ADD_SHADER", diffuse(color),
-      single("BSDF_GLOSSY", {{"Color", vec4(0.4f, 0.3f, 0.2f, 1)}, {"Roughness", roughness}}));
-}
-
 // All kinds of events, in vertices of one kind and of two, seen and lit from everywhere.
 SceneKit all_kinds() {
   NodeGraph paper = combine("MIX_SHADER", single("BSDF_TRANSLUCENT", {{"Color", vec4(0.9f)}}),
@@ -221,21 +215,10 @@ TEST(LecturePassesOfAllIntegrators, AgreeUnderRayVisibility) {
 // --- Known answers
 // --------------------------------------------------------------------------------
 
-// Walls that emit 1 and scatter by a Lambert lobe and by a mirror: each word of the two letters is
-// a power of two numbers.
+// Each word of the two letters is a product of two numbers.
 TEST(LecturePassesOfWords, AreKnown) {
   constexpr double kDiffuse = 0.5 * 0.8, kMirror = 0.5 * 0.9;
-  NodeGraph walls = combine("MIX_SHADER", diffuse(Rgb(0.8f)), mirror(Rgb(0.9f)));
-  walls.nodes.push_back(emission(Rgb(1), 1).nodes.front());
-  walls.nodes.back().name = "Light";
-  walls.nodes.push_back(
-      node("Sum", "ADD_SHADER",
-           {{"Shader", link("Top", "Shader")}, {"Shader_001", link("Light", "Emission")}}));
-  walls.surface = NodeLink{"Sum", "Shader"};
-  const auto scene = SceneKit()
-                         .add("box", cuboid(vec3(-1), vec3(1)), walls)
-                         .camera({0, -0.8f, 0.1f}, {0, 1, 0}, 0.4f)
-                         .build();
+  const auto scene = box_of_words(kDiffuse, kMirror).build();
   const double d = kDiffuse, s = kMirror, all = d + s;
   const std::map<std::string, double> expected = {
       {"LE", 1.0},

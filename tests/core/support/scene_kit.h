@@ -278,6 +278,29 @@ inline SceneKit open_box(Rgb albedo = Rgb(0.6f, 0.5f, 0.4f)) {
   return kit;
 }
 
+// A closed box around the camera whose walls emit 1 and scatter `diffused` by a Lambert lobe and
+// `mirrored` by a mirror: its radiance is a sum over the words of two letters.
+inline SceneKit box_of_words(float diffused, float mirrored) {
+  NodeGraph walls =
+      combine("MIX_SHADER", diffuse(Rgb(2.0f * diffused)), mirror(Rgb(2.0f * mirrored)));
+  walls.nodes.push_back(emission(Rgb(1), 1).nodes.front());
+  walls.nodes.back().name = "Light";
+  walls.nodes.push_back(
+      node("Sum", "ADD_SHADER",
+           {{"Shader", link("Top", "Shader")}, {"Shader_001", link("Light", "Emission")}}));
+  walls.surface = NodeLink{"Sum", "Shader"};
+  return SceneKit()
+      .add("box", cuboid(vec3(-1), vec3(1)), walls)
+      .camera({0, -0.8f, 0.1f}, {0, 1, 0}, 0.4f);
+}
+
+// Diffuse, and glossy in other colours.
+inline NodeGraph plastic(Rgb color, float roughness) {
+  return combine(
+      "ADD_SHADER", diffuse(color),
+      single("BSDF_GLOSSY", {{"Color", vec4(0.4f, 0.3f, 0.2f, 1)}, {"Roughness", roughness}}));
+}
+
 // The box with two diffuse blocks, so that there are shadows and paths of every length.
 inline SceneKit room() {
   return open_box()
