@@ -70,6 +70,9 @@ void Film::add_splats(std::span<const std::vector<Splat>> blocks, ThreadPool& po
 
 void Film::add_splats(std::span<const std::vector<LayerSplat>> blocks, ThreadPool& pool) {
   for_each_splat(blocks, pool, [&](size_t pixel, Rgb value, const LayerSplat& splat) {
+    if (splat.picture) {
+      pass_splats_[pixel] += value;
+    }
     splat.layers.for_each(
         [&](size_t layer) { pass_layers_[pixel * layer_count_ + layer] += value; });
   });

@@ -43,6 +43,7 @@ struct LayerMask {
 struct LayerSplat {
   vec2 raster;
   Rgb value;
+  bool picture;  // also one to the picture
   LayerMask layers;
 };
 

@@ -143,7 +143,7 @@ class Bdpt final : public BidirectionalIntegrator {
     const float margin = context_.film.filter().radius();
     const bool keep = counts_.connection > 0.0f || merges();
     const std::span<CacheBlock> caches = cache_.start(blocks);
-    start_splats(blocks);
+    splats_.start(blocks);
     std::vector<AdaptiveCounts::Moments> moments(meter_ ? blocks : 1);
     context_.pool.parallel_for(blocks, [&](size_t block) {
       context_.cancel.throw_if_cancelled();
@@ -166,7 +166,7 @@ class Bdpt final : public BidirectionalIntegrator {
       counters.light_vertices = caches[block].vertices.size();
       add(counters);
     });
-    add_splats_to_film();
+    splats_.add_to(context_.film, context_.pool);
     collect(moments);
     cache_.finish();
     cache_bytes_ = std::max(cache_bytes_, cache_.bytes());

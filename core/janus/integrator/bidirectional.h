@@ -6,6 +6,7 @@
 
 #include "janus/integrator/pass.h"
 #include "janus/integrator/roulette_map.h"
+#include "janus/integrator/splats.h"
 #include "janus/integrator/vertex_cache.h"
 
 namespace janus {
@@ -124,6 +125,9 @@ class BidirectionalIntegrator : public PassIntegrator {
     }
     const BsdfView light_bsdf = block.bsdf(l);
     __builtin_prefetch(light_bsdf.lobes().data());
+    if (settings_.walk.expressions) {
+      __builtin_prefetch(block.states_of(l).data());
+    }
     UnreadVertices unread;
     const auto c = connect_vertices(l, light_bsdf, v, mis_, settings_.walk, scale, roulette,
                                     sampler, counters, reads(unread));
@@ -160,41 +164,20 @@ class BidirectionalIntegrator : public PassIntegrator {
     if (!usable(value, counters)) {
       return;
     }
-    picture_splats_[block].push_back({s->raster, value});
     if (settings_.layers.any()) {
-      const SortedPath path{states(v.trace), camera_state(), unread};
-      settings_.layers.spread(value, w, technique, settings_.walk.expressions, path,
-                              [&](LayerMask mask, Rgb part) {
-                                layer_splats_[block].push_back({s->raster, part, mask});
-                              });
+      splats_.add(block, s->raster, value, [&](auto&& add) {
+        const SortedPath path{states(v.trace), camera_state(), unread};
+        settings_.layers.spread(value, w, technique, settings_.walk.expressions, path, add);
+      });
+    } else {
+      splats_.add(block, s->raster, value);
     }
     on_splat(s->raster, value, c.weight);
   }
 
-  // None yet, in `blocks` blocks that keep their memory.
-  void start_splats(size_t blocks) {
-    picture_splats_.resize(std::max(picture_splats_.size(), blocks));
-    layer_splats_.resize(picture_splats_.size());
-    splat_blocks_ = blocks;
-    for (size_t i = 0; i < blocks; ++i) {
-      picture_splats_[i].clear();
-      layer_splats_[i].clear();
-    }
-  }
-  void add_splats_to_film() {
-    context_.film.add_splats(std::span(picture_splats_).first(splat_blocks_), context_.pool);
-    if (settings_.layers.any()) {
-      context_.film.add_splats(std::span(layer_splats_).first(splat_blocks_), context_.pool);
-    }
-  }
-
   SampleCounts counts_;
   Mis mis_;
-
- private:
-  std::vector<std::vector<Splat>> picture_splats_;  // by block of light paths
-  std::vector<std::vector<LayerSplat>> layer_splats_;
-  size_t splat_blocks_ = 0;
+  Splats splats_;
 };
 
 }  // namespace janus

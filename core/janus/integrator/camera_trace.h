@@ -32,15 +32,15 @@ class CameraTrace {
   // The walk has found light of source `light`, on a path with so many edges.
   [[gnu::noinline]] void found(size_t light, Rgb value, int edges) {
     if (edges == 1) {
-      add(light, value, trace_.states.all(), {});
+      add(light, value, trace_.states(), {});
     } else {
-      add(light, value, trace_.before.all(), lit(trace_.vertex, light));
+      add(light, value, trace_.before(), lit(trace_.vertex(), light));
     }
   }
 
   // Light of source `light` was looked for at `vertex`, where the walk is.
   [[gnu::noinline]] void joined(size_t light, Rgb value, const UnreadVertex& vertex) {
-    add(light, value, trace_.states.all(), lit(vertex, light));
+    add(light, value, trace_.states(), lit(vertex, light));
   }
 
  private:

@@ -25,7 +25,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
 
   void render_pass(int pass) override {
     const size_t width = context_.film.rect().width();
-    start_splats(context_.film.rect().height());
+    splats_.start(context_.film.rect().height());
     for_each_row([&](size_t row, Counters& counters) {
       CacheBlock light_path;
       for (size_t i = row * width; i < (row + 1) * width; ++i) {
@@ -36,7 +36,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
         trace_camera_path(i, pass, light_path, counters);
       }
     });
-    add_splats_to_film();
+    splats_.add_to(context_.film, context_.pool);
   }
 
   Effort effort() const override { return {light_paths_ > 0 ? 1.0f : 0.0f, 1.0f}; }

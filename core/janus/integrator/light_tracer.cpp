@@ -6,6 +6,7 @@
 // hit lights in a path tracer without next event estimation: that finds all, if the camera has a
 // lens, and seldom. Light that the camera sees directly comes from one camera ray per pixel.
 #include "janus/integrator/pass.h"
+#include "janus/integrator/splats.h"
 #include "janus/path/connect.h"
 
 namespace janus {
@@ -24,20 +25,22 @@ class LightTracer final : public PassIntegrator {
  private:
   // Weights are not used: every path has one technique here.
   const Mis mis_{Heuristic::Balance, SampleCounts{}};
+  Splats splats_;
 
   void trace_lights(int pass) {
     const size_t count = light_path_count(settings_.light_paths);
     const float margin = context_.film.filter().radius();
     const size_t blocks = (count + kLightBlock - 1) / kLightBlock;
-    std::vector<std::vector<Splat>> splats(blocks);
-    std::vector<std::vector<LayerSplat>> layers(blocks);
+    splats_.start(blocks);
     context_.pool.parallel_for(blocks, [&](size_t block) {
       context_.cancel.throw_if_cancelled();
       Counters counters;
       const auto add_splat = [&](vec2 raster, Rgb value, const SortedPath& path) {
-        splats[block].push_back({raster, value});
-        sort(value, path,
-             [&](LayerMask mask, Rgb part) { layers[block].push_back({raster, part, mask}); });
+        if (settings_.layers.any()) {
+          splats_.add(block, raster, value, [&](auto&& add) { sort(value, path, add); });
+        } else {
+          splats_.add(block, raster, value);
+        }
       };
       const size_t end = std::min(count, (block + 1) * kLightBlock);
       for (size_t i = block * kLightBlock; i < end; ++i) {
@@ -58,10 +61,7 @@ class LightTracer final : public PassIntegrator {
       }
       add(counters);
     });
-    context_.film.add_splats(splats, context_.pool);
-    if (settings_.layers.any()) {
-      context_.film.add_splats(layers, context_.pool);
-    }
+    splats_.add_to(context_.film, context_.pool);
   }
 
   // t=0.

@@ -46,7 +46,7 @@ class PassIntegrator : public Integrator {
   }
   // What was read of a subpath before its present vertex.
   static std::span<const WeightedState> states(const PathTrace* trace) {
-    return trace ? trace->states.all() : std::span<const WeightedState>();
+    return trace ? trace->states() : std::span<const WeightedState>();
   }
   // Where joins keep what is to be read, if anybody reads.
   UnreadVertices* reads(UnreadVertices& unread) const {
@@ -59,13 +59,13 @@ class PassIntegrator : public Integrator {
       return {};
     }
     if (found.edges == 1) {
-      return {{&light, 1}, found.trace->states.all(), {}};
+      return {{&light, 1}, found.trace->states(), {}};
     }
-    UnreadVertex z_1 = found.trace->vertex;
+    UnreadVertex z_1 = found.trace->vertex();
     if (settings_.walk.ray_types) {
       z_1.shares = z_1.shares.lit(context_.scene.lights[found.light]->visibility);
     }
-    return {{&light, 1}, found.trace->before.all(), UnreadVertices(z_1)};
+    return {{&light, 1}, found.trace->before(), UnreadVertices(z_1)};
   }
 
   // Keeps the colours of what the camera sees in pixel `index`, if `v` is that.

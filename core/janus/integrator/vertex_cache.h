@@ -33,7 +33,7 @@ struct CacheBlock {
       reshadings.push_back(v.reshading);
     }
     if (v.trace) {
-      const std::span<const WeightedState> read = v.trace->states.all();
+      const std::span<const WeightedState> read = v.trace->states();
       out.first_state = static_cast<uint32_t>(states.size());
       out.state_count = static_cast<uint8_t>(read.size());
       states.insert(states.end(), read.begin(), read.end());

@@ -77,7 +77,7 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
     const bool transmitted = dot(v.back, v.hit.ng) * dot(wi, v.hit.ng) < 0.0f;
     ScatterShares shares = ScatterShares::joined(e, transmitted);
     shares = rules.ray_types ? shares.lit(light.visibility) : shares;
-    *unread = UnreadVertices({v.hit.instance, shares});
+    unread->set({v.hit.instance, shares});
   }
   joined->light = choice.light;
   return joined;
@@ -174,7 +174,7 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
       second.shares = second.shares.labelled(type);
       first.shares = l.edges == 1 ? first.shares.lit(l.labels) : first.shares.within(l.labels);
     }
-    *unread = UnreadVertices(first, second);
+    unread->set(first, second);
   }
   return joined;
 }
@@ -211,7 +211,7 @@ std::optional<Merge> merge_vertices(const LightVertex& l, const PathVertex& c, c
   merged->weight = mis.weight_merge(l.mis, e.pdf_radiance, c.mis, e.pdf_importance);
   if (unread) {
     const auto shares = ScatterShares::joined(e, transmitted);
-    *unread = UnreadVertices({c.hit.instance, rules.ray_types ? shares.within(l.labels) : shares});
+    unread->set({c.hit.instance, rules.ray_types ? shares.within(l.labels) : shares});
   }
   return merged;
 }
@@ -264,7 +264,7 @@ std::optional<CameraSplat> connect_to_camera(const PathVertex& v, const Camera& 
     if (rules.ray_types) {
       shares = v.edges == 1 ? shares.lit(v.source) : shares.within(v.possible_labels(false));
     }
-    *unread = UnreadVertices({v.hit.instance, shares});
+    unread->set({v.hit.instance, shares});
   }
   return splat;
 }

@@ -8,6 +8,8 @@
 // not know.
 #pragma once
 
+#include <bit>
+
 #include "janus/sampling/sampler.h"
 #include "janus/scene/ray_type.h"
 #include "janus/shading/bsdf.h"
@@ -104,7 +106,7 @@ inline constexpr ScatterMask kAllScattering = 0b111111;
 inline constexpr ScatterMask kReflections = 0b010101, kTransmissions = 0b101010;
 
 // An event at a vertex once both directions are known: a part of it is diffuse, the rest glossy or
-// specular.
+// specular. Members of one size, which copies of this can load as soon as they have been stored.
 class ScatterShares {
  public:
   ScatterShares() {}  // not `= default`, which would set it to zero
@@ -118,55 +120,54 @@ class ScatterShares {
   // Calls f(event, share by channel) for its kinds.
   template <class F>
   void for_each(F&& f) const {
-    if (kinds_ != Kinds::Other) {
-      f(scatter_event(Scattering::Diffuse, transmitted_), diffuse_);
-    }
-    if (kinds_ != Kinds::Diffuse) {
-      f(scatter_event(delta_ ? Scattering::Specular : Scattering::Glossy, transmitted_),
-        Rgb(1.0f) - diffuse_);
+    if (std::has_single_bit(events_)) {
+      f(std::countr_zero(events_), Rgb(1.0f));
+    } else if (events_ != 0) {
+      f(std::countr_zero(events_), diffuse_);
+      f(std::bit_width(events_) - 1, Rgb(1.0f) - diffuse_);
     }
   }
 
   // The part where a light shines that is visible to `mask` alone; see lit_share().
   ScatterShares lit(RayMask mask) const {
-    const bool rest = contains(mask, transmitted_ ? RayType::Transmission : RayType::Glossy);
+    const bool rest = contains(mask, transmitted() ? RayType::Transmission : RayType::Glossy);
     return contains(mask, RayType::Diffuse) == rest ? *this : all(!rest);
   }
   // The part with one of these labels.
-  ScatterShares within(RayMask labels) const { return transmitted_ ? *this : lit(labels); }
+  ScatterShares within(RayMask labels) const { return transmitted() ? *this : lit(labels); }
   // That with a label which has been drawn.
   ScatterShares labelled(RayType label) const {
-    return transmitted_ ? *this : all(label == RayType::Diffuse);
+    return transmitted() ? *this : all(label == RayType::Diffuse);
   }
 
  private:
-  enum class Kinds : uint8_t { Diffuse, Other, Both };
+  static constexpr uint32_t kDiffuse = scatter_bit(Scattering::Diffuse);
 
-  ScatterShares(Rgb diffuse, Rgb whole, bool transmitted, bool delta)
-      : transmitted_(transmitted), delta_(delta) {
+  ScatterShares(Rgb diffuse, Rgb whole, bool transmitted, bool delta) {
+    const uint32_t first = 1U << scatter_event(Scattering::Diffuse, transmitted);
+    const uint32_t other =
+        1U << scatter_event(delta ? Scattering::Specular : Scattering::Glossy, transmitted);
     if (is_black(diffuse)) {
-      kinds_ = Kinds::Other;
-      diffuse_ = Rgb(0.0f);
+      events_ = other;
     } else if (diffuse == whole) {
-      kinds_ = Kinds::Diffuse;
-      diffuse_ = Rgb(1.0f);
+      events_ = first;
     } else {
-      kinds_ = Kinds::Both;
+      events_ = first | other;
       for (int c = 0; c < 3; ++c) {
         diffuse_[c] = diffuse[c] > 0.0f ? std::min(diffuse[c] / whole[c], 1.0f) : 0.0f;
       }
     }
   }
+  bool transmitted() const { return (events_ & kTransmissions) != 0; }
+  // Its diffuse kind, or its other one, as all that there is.
   ScatterShares all(bool diffuse) const {
     ScatterShares shares = *this;
-    shares.kinds_ = diffuse ? Kinds::Diffuse : Kinds::Other;
-    shares.diffuse_ = Rgb(diffuse ? 1.0f : 0.0f);
+    shares.events_ &= diffuse ? kDiffuse : ~kDiffuse;
     return shares;
   }
 
-  Rgb diffuse_;  // by channel
-  bool transmitted_, delta_;
-  Kinds kinds_;
+  uint32_t events_;  // bits by scatter_event(): a diffuse one, another, or both
+  Rgb diffuse_;      // by channel, of both
 };
 
 // Bounces of a part of a path by label.

@@ -30,26 +30,20 @@ class PathStates {
  public:
   PathStates() {}  // not `= default`, which would have the array set to zero
   explicit PathStates(PathAutomaton::State state) { add(state, Rgb(1.0f)); }
-  PathStates(const PathStates& other) { *this = other; }
-  PathStates& operator=(const PathStates& other) {
-    count_ = other.count_;
-    std::copy_n(other.states_, count_, states_);
-    return *this;
-  }
 
   std::span<const WeightedState> all() const { return {states_, static_cast<size_t>(count_)}; }
 
-  // After `vertex`, read by `next(state, event, instance)`. `sampler`: for subpaths in more states
-  // than there is room for, of which one is then dropped by chance in favour of another.
+  // Those that `before` turn into after `vertex`, read by `next(state, event, instance)`.
+  // `sampler`: for subpaths in more states than there is room for, of which one is then dropped by
+  // chance in favour of another.
   template <class Next>
-  PathStates after(const UnreadVertex& vertex, Next&& next, Sampler& sampler) const {
-    PathStates read;
+  void read(const PathStates& before, const UnreadVertex& vertex, Next&& next, Sampler& sampler) {
+    count_ = 0;
     vertex.shares.for_each([&](int event, Rgb share) {
-      for (const WeightedState& s : all()) {
-        read.add(next(s.state, event, vertex.instance), s.share * share, sampler);
+      for (const WeightedState& s : before.all()) {
+        add(next(s.state, event, vertex.instance), s.share * share, sampler);
       }
     });
-    return read;
   }
 
  private:
@@ -92,12 +86,14 @@ class PathStates {
 };
 
 // What has been read of a subpath.
-struct PathTrace {
-  PathStates states;    // of all vertices so far
-  PathStates before;    // of all but the last one
-  UnreadVertex vertex;  // the last one
+class PathTrace {
+ public:
+  explicit PathTrace(PathAutomaton::State start) : read_{PathStates(start), PathStates()} {}
 
-  explicit PathTrace(PathAutomaton::State start) : states(start) {}
+  // Of all vertices so far; of all but the last one; and that.
+  std::span<const WeightedState> states() const { return read_[now_].all(); }
+  std::span<const WeightedState> before() const { return read_[1 - now_].all(); }
+  const UnreadVertex& vertex() const { return vertex_; }
 
   // The subpath goes on from `at`, its vertex number `edges`, of whose shares `read` count for what
   // comes next. Numbers are drawn apart: the picture does not depend on who looks at it.
@@ -106,10 +102,16 @@ struct PathTrace {
              Sampler sampler) {
     constexpr uint32_t kBlock = 1 << 20;  // far beyond those of vertices
     sampler.start_block(kBlock + static_cast<uint32_t>(edges));
-    vertex = at;
-    before = states;
-    states = before.after({at.instance, read}, next, sampler);
+    vertex_ = at;
+    const PathStates& before = read_[now_];
+    now_ = 1 - now_;
+    read_[now_].read(before, {at.instance, read}, next, sampler);
   }
+
+ private:
+  PathStates read_[2];  // taking turns, because copies cost
+  int now_ = 0;
+  UnreadVertex vertex_;
 };
 
 // The vertices of a finished path that neither side has read, from the light to the camera.
@@ -118,10 +120,15 @@ struct UnreadVertices {
   int count = 0;
 
   UnreadVertices() {}
-  explicit UnreadVertices(const UnreadVertex& one) : count(1) { vertices[0] = one; }
-  UnreadVertices(const UnreadVertex& one, const UnreadVertex& other) : count(2) {
+  explicit UnreadVertices(const UnreadVertex& one) { set(one); }
+  void set(const UnreadVertex& one) {
+    vertices[0] = one;
+    count = 1;
+  }
+  void set(const UnreadVertex& one, const UnreadVertex& other) {
     vertices[0] = one;
     vertices[1] = other;
+    count = 2;
   }
 };
 
@@ -134,29 +141,27 @@ struct SortedPath {
 // Calls f(expressions, share) for the parts of a path that belong to expressions.
 template <class F>
 void for_each_match(const PathAutomaton& automaton, const SortedPath& path, F&& f) {
-  const auto report = [&](PathAutomaton::State light, PathAutomaton::State camera, Rgb share) {
-    const ExpressionMask expressions = automaton.completed(light, camera);
-    if (expressions != 0) {
-      f(expressions, share);
-    }
-  };
   const UnreadVertex* unread = path.unread.vertices;
   for (const WeightedState& light : path.light) {
     for (const WeightedState& camera : path.camera) {
-      const Rgb share = light.share * camera.share;
+      // Most ends match nothing: shares are multiplied late.
+      const auto report = [&](PathAutomaton::State read, Rgb part) {
+        if (const ExpressionMask expressions = automaton.completed(read, camera.state)) {
+          f(expressions, light.share * camera.share * part);
+        }
+      };
       if (path.unread.count == 0) {
-        report(light.state, camera.state, share);
+        report(light.state, Rgb(1.0f));
         continue;
       }
       unread[0].shares.for_each([&](int event, Rgb part) {
         const auto read = automaton.forward(light.state, event, unread[0].instance);
         if (path.unread.count == 1) {
-          report(read, camera.state, share * part);
+          report(read, part);
           return;
         }
         unread[1].shares.for_each([&](int second, Rgb second_part) {
-          report(automaton.forward(read, second, unread[1].instance), camera.state,
-                 share * part * second_part);
+          report(automaton.forward(read, second, unread[1].instance), part * second_part);
         });
       });
     }

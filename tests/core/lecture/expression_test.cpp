@@ -298,14 +298,14 @@ TEST(LectureExpressions, DroppedStatesAreMadeUpFor) {
   for (uint64_t i = 0; i < 20000; ++i) {
     Sampler sampler(3, Stream::Pilot, i, 0);
     sampler.start_block(0);
-    PathStates states(1);
+    PathTrace trace(1);
     for (int k = 0; k < 4; ++k) {
-      states = states.after(vertex, next, sampler);
-      most = std::max(most, states.all().size());
+      trace.go_on(vertex, vertex.shares, k, next, sampler);
+      most = std::max(most, trace.states().size());
     }
     for (PathAutomaton::State word = 16; word < 32; ++word) {
       Rgb share(0.0f);
-      for (const WeightedState& s : states.all()) {
+      for (const WeightedState& s : trace.states()) {
         share += s.state == word ? s.share : Rgb(0.0f);
       }
       for (int c = 0; c < 3; ++c) {
