@@ -77,8 +77,8 @@ FILM_AND_SAMPLES = (
         (
             Edit(
                 BDPT,
-                "start_splats(blocks);",
-                "start_splats(blocks); std::vector<CacheBlock> ended;",
+                "splats_.start(blocks);",
+                "splats_.start(blocks); std::vector<CacheBlock> ended;",
             ),
             Edit(
                 BDPT,
