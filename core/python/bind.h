@@ -8,6 +8,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,25 @@ NodeGraph to_graph(const std::string& key, const py::dict& graph);
 inline void check_signals() {
   if (PyErr_CheckSignals() != 0) {
     throw py::error_already_set();
+  }
+}
+
+// Calls wait(seconds), which tells whether what it waits for has come, without the GIL and in slices
+// short enough for Ctrl-C, until it has, or `seconds` have passed: true or false. Needs the GIL.
+template <class Wait>
+bool wait_slices(Wait&& wait, double seconds) {
+  constexpr double kSlice = 0.1;
+  for (;;) {
+    bool ended;
+    {
+      const py::gil_scoped_release release;
+      ended = wait(std::clamp(seconds, 0.0, kSlice));
+    }
+    check_signals();
+    seconds -= kSlice;
+    if (ended || !(seconds > 0.0)) {
+      return ended;
+    }
   }
 }
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
 
 #include "bind_arrays.h"
-#include "janus/render/builder.h"
+#include "janus/render/commit_task.h"
 #include "janus/shading/compiler.h"
 
 namespace janus::python {
@@ -24,6 +21,7 @@ constexpr EnumName<AreaShape> kAreaShapes[] = {{"SQUARE", AreaShape::Square},
                                                {"DISK", AreaShape::Disk},
                                                {"ELLIPSE", AreaShape::Ellipse}};
 constexpr py::ssize_t kMaxImageSide = 1 << 16;
+constexpr double kPollSeconds = 0.05;
 constexpr EnumName<CameraType> kCameraTypes[] = {{"PERSP", CameraType::Perspective},
                                                  {"ORTHO", CameraType::Orthographic},
                                                  {"EQUIRECTANGULAR", CameraType::Equirectangular}};
@@ -144,64 +142,29 @@ void set_camera(SceneBuilder& self, std::string name, const std::string& type,
   self.set_camera(std::move(desc));
 }
 
-// Builds on a thread of its own, so that `poll` (which may call into Blender) runs in the thread
-// that called, with the GIL, and everybody else gets the GIL in between.
+// `poll`, which may call into Blender, runs in the thread that called, with the GIL; everybody else
+// gets the GIL in between.
 std::shared_ptr<const Scene> commit(const SceneBuilder& self, const py::object& poll) {
-  CancelToken cancel;
-  std::shared_ptr<const Scene> scene;
-  std::exception_ptr error;
-  std::mutex mutex;
-  std::condition_variable ended;
-  bool done = false;
-  const SceneBuilder copy = self;  // other threads may change the builder meanwhile
-
-  std::thread thread([&] {
-    try {
-      scene = copy.commit(cancel);
-    } catch (...) {
-      error = std::current_exception();
-    }
-    const std::lock_guard lock(mutex);
-    done = true;
-    ended.notify_all();
-  });
-  std::exception_ptr poll_error;
-  {
-    const py::gil_scoped_release release;
-    std::unique_lock lock(mutex);
-    while (!ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return done; })) {
-      lock.unlock();
-      try {
-        const py::gil_scoped_acquire acquire;
-        check_signals();
-        if (!poll.is_none() && py::bool_(poll())) {
-          cancel.cancel();
-        }
-      } catch (...) {
-        poll_error = std::current_exception();
-        cancel.cancel();
+  std::optional<CommitTask> task;
+  task.emplace(self);
+  try {
+    while (!wait_slices([&](double seconds) { return task->wait(seconds); }, kPollSeconds)) {
+      if (!poll.is_none() && py::bool_(poll())) {
+        task->cancel();
       }
-      lock.lock();
     }
-    lock.unlock();
-    thread.join();
+  } catch (...) {
+    const py::gil_scoped_release release;
+    task.reset();
+    throw;
   }
-  if (poll_error) {
-    std::rethrow_exception(poll_error);
-  }
-  if (cancel.cancelled()) {  // asked for too late to be heard
-    throw Cancelled();
-  }
-  if (error) {
-    std::rethrow_exception(error);
-  }
-  return scene;
+  return task->scene();
 }
 
 py::dict counts(const Scene& scene) {
   size_t triangles = 0;
   for (const Instance& instance : scene.instances) {
-    triangles += scene.meshes[instance.mesh].triangles().size();
+    triangles += scene.meshes[instance.mesh]->triangles().size();
   }
   py::dict result;
   result["meshes"] = scene.meshes.size();
@@ -209,6 +172,7 @@ py::dict counts(const Scene& scene) {
   result["triangles"] = triangles;
   result["materials"] = scene.surfaces.size() - 1;  // without the default surface
   result["lights"] = scene.lights.size();
+  result["meshes_built"] = scene.accel->built();
   return result;
 }
 
@@ -239,8 +203,22 @@ void bind_scene(py::module_& m) {
           "diagnostics", [](const Scene& s) { return s.diagnostics; },
           "What could not be rendered as asked: list of Diagnostic.")
       .def_property_readonly("counts", &counts,
-                             "Numbers of meshes, instances, triangles (with instances), materials "
-                             "and lights (sources with their own sampling).");
+                             "Numbers of meshes, instances, triangles (with instances), materials, "
+                             "lights (sources with their own sampling), and meshes_built: those "
+                             "that are not shared with the scene before.");
+
+  // release_gil_before_calling_cpp_dtor: the destructor waits for the thread.
+  py::class_<CommitTask>(m, "CommitTask", py::release_gil_before_calling_cpp_dtor(),
+                         "A commit on a thread of its own. Dropping it cancels it.")
+      .def(
+          "wait",
+          [](CommitTask& self, double seconds) {
+            return wait_slices([&](double s) { return self.wait(s); }, seconds);
+          },
+          "seconds"_a, "Waits up to `seconds` for the end, without the GIL; True if it has come.")
+      .def("cancel", &CommitTask::cancel, "Asks it to stop and returns.")
+      .def("scene", &CommitTask::scene, py::call_guard<py::gil_scoped_release>(),
+           "Waits for the end. Raises SceneError, or Cancelled if it was cancelled.");
 
   py::class_<SceneBuilder> builder(
       m, "SceneBuilder",
@@ -346,7 +324,12 @@ void bind_scene(py::module_& m) {
       .def("remove", &SceneBuilder::remove, "key"_a, "Forgets a key; unknown keys are ignored.")
       .def("commit", &commit, "poll"_a = py::none(),
            "Builds the immutable Scene without holding the GIL. poll() is called about every 50 ms "
-           "in this thread; True cancels. Raises SceneError, Cancelled, or what poll raised.");
+           "in this thread; True cancels. Raises SceneError, Cancelled, or what poll raised. Meshes "
+           "set before the last commit are shared with its Scene, if that is still in use.")
+      .def(
+          "start_commit",
+          [](const SceneBuilder& self) { return std::make_unique<CommitTask>(self); },
+          "The same on a thread of its own, without poll. The builder may be changed meanwhile.");
 }
 
 }  // namespace janus::python

@@ -230,21 +230,8 @@ void bind_settings(py::module_& m) {
 // --- Session
 // --------------------------------------------------------------------------------------
 
-// Waits without the GIL, in slices short enough for Ctrl-C.
 bool wait(RenderSession& self, double seconds) {
-  constexpr double kSlice = 0.1;
-  for (;;) {
-    bool ended;
-    {
-      const py::gil_scoped_release release;
-      ended = self.wait(std::clamp(seconds, 0.0, kSlice));
-    }
-    check_signals();
-    seconds -= kSlice;
-    if (ended || !(seconds > 0.0)) {
-      return ended;
-    }
-  }
+  return wait_slices([&](double slice) { return self.wait(slice); }, seconds);
 }
 
 void finish(RenderSession& self) {

@@ -27,7 +27,14 @@ def test_exceptions():
 def test_counts(builder):
     builder.set_instance("second", name="Second", mesh="mesh", transform=translation(0, 0, -1))
     counts = builder.commit().counts
-    assert counts == {"meshes": 1, "instances": 2, "triangles": 4, "materials": 1, "lights": 1}
+    assert counts == {
+        "meshes": 1,
+        "instances": 2,
+        "triangles": 4,
+        "materials": 1,
+        "lights": 1,
+        "meshes_built": 1,
+    }
 
 
 @pytest.mark.parametrize(
@@ -272,6 +279,27 @@ def test_commit_lets_others_run(builder):
     thread.join()
     during = [c for c in calls if begin < c < end]
     assert len(during) > 20 * (end - begin)
+
+
+def test_commit_on_a_thread_of_its_own(builder):
+    fill(builder)
+    first = builder.commit()
+    task = builder.start_commit()
+    builder.remove("lamp")  # has no say in it
+    second = task.scene()
+    assert task.wait(0.0)
+    assert second.counts["meshes_built"] == 0 < first.counts["meshes_built"]
+    assert np.array_equal(render(second).snapshot(), render(first).snapshot())
+
+
+def test_a_commit_can_be_given_up(builder):
+    large(builder)
+    task = builder.start_commit()
+    assert not task.wait(0.001)
+    task.cancel()
+    with pytest.raises(janus_core.Cancelled):
+        task.scene()
+    builder.start_commit()  # dropped at once
 
 
 def test_everything_is_documented():

@@ -11,6 +11,9 @@
 #include <array>
 #include <atomic>
 #include <cstdlib>
+#include <map>
+#include <mutex>
+#include <utility>
 
 #include "janus/util/error.h"
 
@@ -18,27 +21,101 @@ namespace janus {
 
 namespace {
 
-// Embree reports errors to a callback; the first one is kept and thrown when the build ends.
-struct BuildState {
-  const CancelToken* cancel = nullptr;
-  std::string error;
+bool on_progress(void* cancel, double /*fraction*/) {
+  return !static_cast<const CancelToken*>(cancel)->cancelled();
+}
+
+// Embree itself, for all hierarchies that share some.
+class Device {
+ public:
+  Device() : handle_(rtcNewDevice(std::getenv("JANUS_EMBREE_CONFIG"))) {
+    // The setting lets a thread sanitizer run keep Embree's own threads out of the picture.
+    if (!handle_) {
+      throw Error("Embree could not be started (error " +
+                  std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
+    }
+    rtcSetDeviceErrorFunction(handle_, on_error, this);
+    rtcSetDeviceMemoryMonitorFunction(handle_, on_memory, &bytes_);
+  }
+  ~Device() { rtcReleaseDevice(handle_); }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  RTCDevice handle() const { return handle_; }
+  size_t bytes() const { return static_cast<size_t>(bytes_.load()); }
+
+  RTCScene new_scene() const {
+    RTCScene scene = rtcNewScene(handle_);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    return scene;
+  }
+
+  // Throws Cancelled, or Error.
+  void commit(RTCScene scene, const CancelToken& cancel) {
+    rtcSetSceneProgressMonitorFunction(scene, on_progress, const_cast<CancelToken*>(&cancel));
+    rtcCommitScene(scene);
+    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+    cancel.throw_if_cancelled();
+    const std::lock_guard lock(mutex_);
+    if (!error_.empty()) {
+      throw Error("building the ray acceleration structure failed: " + std::exchange(error_, {}));
+    }
+  }
+
+ private:
+  // Embree reports errors to a callback; the first one is kept until a build ends.
+  static void on_error(void* user, RTCError code, const char* message) {
+    auto* device = static_cast<Device*>(user);
+    const std::lock_guard lock(device->mutex_);
+    if (code != RTC_ERROR_CANCELLED && device->error_.empty()) {
+      device->error_ = message ? message : "unknown error";
+    }
+  }
+  static bool on_memory(void* user, ssize_t bytes, bool /*after*/) {
+    static_cast<std::atomic<ssize_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
+    return true;
+  }
+
+  RTCDevice handle_;
+  std::mutex mutex_;
+  std::string error_;
+  std::atomic<ssize_t> bytes_{0};
 };
 
-void on_error(void* user, RTCError code, const char* message) {
-  auto* state = static_cast<BuildState*>(user);
-  if (code != RTC_ERROR_CANCELLED && state->error.empty()) {
-    state->error = message ? message : "unknown error";
+// The hierarchy of a mesh, which it keeps: its buffers are the mesh's.
+class MeshAccel {
+ public:
+  MeshAccel(std::shared_ptr<Device> device, std::shared_ptr<const Mesh> mesh,
+            const CancelToken& cancel)
+      : device_(std::move(device)), mesh_(std::move(mesh)), scene_(device_->new_scene()) {
+    RTCGeometry geometry = rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               mesh_->positions().data(), 0, sizeof(vec3),
+                               mesh_->positions().size() - 1);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh_->triangles().data(), 0, sizeof(Mesh::Triangle),
+                               mesh_->triangles().size());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+    try {
+      device_->commit(scene_, cancel);
+    } catch (...) {
+      rtcReleaseScene(scene_);
+      throw;
+    }
   }
-}
+  ~MeshAccel() { rtcReleaseScene(scene_); }
+  MeshAccel(const MeshAccel&) = delete;
+  MeshAccel& operator=(const MeshAccel&) = delete;
 
-bool on_progress(void* user, double /*fraction*/) {
-  return !static_cast<BuildState*>(user)->cancel->cancelled();
-}
+  RTCScene scene() const { return scene_; }
 
-bool on_memory(void* user, ssize_t bytes, bool /*after*/) {
-  static_cast<std::atomic<ssize_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
-  return true;
-}
+ private:
+  std::shared_ptr<Device> device_;
+  std::shared_ptr<const Mesh> mesh_;
+  RTCScene scene_;
+};
 
 RTCRayHit to_embree(const Ray& ray) {
   RTCRayHit query{};
@@ -88,24 +165,14 @@ std::array<int, kRayTypes> first_alike(const std::vector<Instance>& instances) {
 }  // namespace
 
 struct Accel::Impl {
-  RTCDevice device = nullptr;
+  std::shared_ptr<Device> device;
   View everything;
   std::array<View, kRayTypes> own;  // of a type that is the first to meet just these instances
   std::array<const View*, kRayTypes> view;  // by type
-  std::vector<RTCScene> bottom;             // by mesh; null where no instance needs it
-  BuildState state;
-  std::atomic<ssize_t> bytes{0};
+  std::map<const Mesh*, std::shared_ptr<const MeshAccel>> bottom;  // of those that are needed
 
   ~Impl() {
     for_each_scene([](RTCScene scene) { rtcReleaseScene(scene); });
-    for (RTCScene scene : bottom) {
-      if (scene) {
-        rtcReleaseScene(scene);
-      }
-    }
-    if (device) {
-      rtcReleaseDevice(device);
-    }
   }
 
   // Calls f for the top levels that there are.
@@ -123,22 +190,6 @@ struct Accel::Impl {
   }
 
   const View& of(RayType type) const { return *view[static_cast<int>(type)]; }
-
-  RTCScene new_scene() const {
-    RTCScene scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    return scene;
-  }
-
-  void commit(RTCScene scene) {
-    rtcSetSceneProgressMonitorFunction(scene, on_progress, &state);
-    rtcCommitScene(scene);
-    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
-    state.cancel->throw_if_cancelled();
-    if (!state.error.empty()) {
-      throw Error("building the ray acceleration structure failed: " + state.error);
-    }
-  }
 
   bool intersect(const std::vector<Placement>& placements, RTCScene scene, const Ray& ray,
                  SurfaceInteraction& hit) const {
@@ -171,26 +222,16 @@ struct Accel::Impl {
   }
 };
 
-Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
-             const CancelToken& cancel)
+Accel::Accel(const MeshList& meshes, const std::vector<Instance>& instances,
+             const CancelToken& cancel, const Accel* previous)
     : impl_(std::make_unique<Impl>()), instances_(instances) {
-  impl_->state.cancel = &cancel;
-  // Lets a thread sanitizer run keep Embree's own threads out of the picture.
-  impl_->device = rtcNewDevice(std::getenv("JANUS_EMBREE_CONFIG"));
-  if (!impl_->device) {
-    throw Error("Embree could not be started (error " +
-                std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
-  }
-  rtcSetDeviceErrorFunction(impl_->device, on_error, &impl_->state);
-  rtcSetDeviceMemoryMonitorFunction(impl_->device, on_memory, &impl_->bytes);
-
-  impl_->bottom.resize(meshes.size(), nullptr);
+  impl_->device = previous ? previous->impl_->device : std::make_shared<Device>();
   const bool opaque = std::ranges::all_of(instances, [](const auto& i) { return i.opaque; });
   const auto start = [&](View& view) {
-    view.all = impl_->new_scene();
+    view.all = impl_->device->new_scene();
     if (!opaque) {
-      view.opaque = impl_->new_scene();
-      view.transparent = impl_->new_scene();
+      view.opaque = impl_->device->new_scene();
+      view.transparent = impl_->device->new_scene();
     }
   };
   start(impl_->everything);
@@ -204,28 +245,22 @@ Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& insta
   placements_.reserve(instances.size());
   for (size_t i = 0; i < instances.size(); ++i) {
     const Instance& instance = instances[i];
-    const Mesh& mesh = meshes[instance.mesh];
-    placements_.emplace_back(mesh, instance);
-    if (mesh.triangles().empty()) {
+    const std::shared_ptr<const Mesh>& mesh = meshes[instance.mesh];
+    placements_.emplace_back(*mesh, instance);
+    if (mesh->triangles().empty()) {
       continue;
     }
-    RTCScene& bottom = impl_->bottom[instance.mesh];
-    if (!bottom) {
-      bottom = impl_->new_scene();
-      RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                 mesh.positions().data(), 0, sizeof(vec3),
-                                 mesh.positions().size() - 1);
-      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                 mesh.triangles().data(), 0, sizeof(Mesh::Triangle),
-                                 mesh.triangles().size());
-      rtcCommitGeometry(geometry);
-      rtcAttachGeometry(bottom, geometry);
-      rtcReleaseGeometry(geometry);
-      impl_->commit(bottom);
+    std::shared_ptr<const MeshAccel>& bottom = impl_->bottom[mesh.get()];
+    if (!bottom && previous) {
+      const auto known = previous->impl_->bottom.find(mesh.get());
+      bottom = known == previous->impl_->bottom.end() ? nullptr : known->second;
     }
-    RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, bottom);
+    if (!bottom) {
+      bottom = std::make_shared<MeshAccel>(impl_->device, mesh, cancel);
+      ++built_;
+    }
+    RTCGeometry geometry = rtcNewGeometry(impl_->device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, bottom->scene());
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &instance.to_world);
     rtcCommitGeometry(geometry);
     const auto attach = [&](const View& view) {
@@ -246,7 +281,7 @@ Accel::Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& insta
       cancel.throw_if_cancelled();
     }
   }
-  impl_->for_each_scene([&](RTCScene scene) { impl_->commit(scene); });
+  impl_->for_each_scene([&](RTCScene scene) { impl_->device->commit(scene, cancel); });
 
   RTCBounds b;
   rtcGetSceneBounds(impl_->everything.all, &b);
@@ -289,7 +324,7 @@ SurfaceInteraction Accel::surface_point(uint32_t instance, uint32_t primitive, v
   return point;
 }
 
-size_t Accel::bytes() const { return static_cast<size_t>(impl_->bytes.load()); }
+size_t Accel::bytes() const { return impl_->device->bytes(); }
 
 std::string Accel::embree_version() { return RTC_VERSION_STRING; }
 

@@ -17,10 +17,10 @@ namespace janus {
 
 class Accel {
  public:
-  // Builds the two-level hierarchy. Meshes and instances must outlive this. Throws Cancelled, or
-  // Error with Embree's message.
-  Accel(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
-        const CancelToken& cancel);
+  // Builds the two-level hierarchy; instances must outlive this. The hierarchies of meshes that
+  // are also in `previous` are shared with it. Throws Cancelled, or Error with Embree's message.
+  Accel(const MeshList& meshes, const std::vector<Instance>& instances, const CancelToken& cancel,
+        const Accel* previous = nullptr);
   ~Accel();
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
@@ -61,8 +61,11 @@ class Accel {
   // World bounds of everything.
   const Bounds& bounds() const { return bounds_; }
 
-  // Bytes that Embree holds. Instances of one mesh share its hierarchy.
+  // Bytes that Embree holds, for this and for what shares hierarchies with it. Instances of one
+  // mesh share its hierarchy.
   size_t bytes() const;
+  // How many hierarchies of meshes were built, and not taken over.
+  size_t built() const { return built_; }
 
   static std::string embree_version();
 
@@ -72,6 +75,7 @@ class Accel {
   const std::vector<Instance>& instances_;
   std::vector<Placement> placements_;  // by instance
   Bounds bounds_;
+  size_t built_ = 0;
 };
 
 }  // namespace janus

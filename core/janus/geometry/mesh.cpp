@@ -56,7 +56,7 @@ void check_attributes(const std::string& key, const MeshDesc& desc, size_t corne
 
 }  // namespace
 
-Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostics)
+Mesh::Mesh(const std::string& key, MeshDesc&& desc)
     : name_(desc.name.empty() ? key : desc.name) {
   const size_t corners =
       desc.corner_vertices.empty() ? desc.positions.size() : desc.corner_vertices.size();
@@ -95,16 +95,15 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
       }
     }
   }
-  attributes_ = desc.attributes;
-  derive_attributes(key, desc, attributes_);
+  std::vector<AttributeDesc> attributes = desc.attributes;
+  derive_attributes(key, desc, attributes);
+  attributes_ = std::move(attributes);
   const auto kept_by = [&](AttributeDomain domain) {
     return std::any_of(attributes_.begin(), attributes_.end(),
                        [&](const AttributeDesc& a) { return a.domain == domain; });
   };
   const bool by_corner = kept_by(AttributeDomain::Corner), by_face = kept_by(AttributeDomain::Face);
 
-  positions_ = desc.positions;
-  positions_.emplace_back(0.0f);
   triangles_.reserve(desc.triangles.size());
   size_t dropped = 0;
   for (size_t i = 0; i < desc.triangles.size(); ++i) {
@@ -119,6 +118,9 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
     triangle.material = desc.material_indices.empty() ? 0 : desc.material_indices[i];
     if (finite) {
       triangles_.push_back(triangle);
+      for (const uint32_t v : triangle.v) {
+        bounds_.extend(desc.positions[v]);
+      }
       if (by_corner) {
         corners_.push_back(desc.triangles[i]);
       }
@@ -130,11 +132,14 @@ Mesh::Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostic
     }
   }
   if (dropped > 0) {
-    diagnostics.push_back(
+    diagnostics_.push_back(
         {Severity::Warning, name_, "", "",
          std::to_string(dropped) + " triangles with non-finite vertices are left out"});
   }
-  normals_ = desc.vertex_normals.empty() ? desc.corner_normals : desc.vertex_normals;
+  normals_ = std::move(desc.vertex_normals.empty() ? desc.corner_normals : desc.vertex_normals);
+  positions_ = std::move(desc.positions);
+  positions_.emplace_back(0.0f);
+  desc = {};
 }
 
 vec3 Mesh::interpolated_normal(uint32_t primitive, vec2 b) const {

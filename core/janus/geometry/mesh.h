@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,14 @@ class Mesh {
     uint32_t material;   // slot
   };
 
-  // Checks the description. Throws SceneError for indices out of range or arrays of wrong length;
-  // drops triangles with non-finite vertices and says so.
-  Mesh(const std::string& key, const MeshDesc& desc, Diagnostics& diagnostics);
+  // Checks the description, and empties it if it is right. Throws SceneError for indices out of
+  // range or arrays of wrong length; drops triangles with non-finite vertices and says so.
+  Mesh(const std::string& key, MeshDesc&& desc);
 
   const std::string& name() const { return name_; }
+  // What was not as asked.
+  const Diagnostics& diagnostics() const { return diagnostics_; }
+  const Bounds& bounds() const { return bounds_; }  // of the triangles
   const std::vector<vec3>& positions() const { return positions_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   bool smooth() const { return !normals_.empty(); }
@@ -40,6 +44,8 @@ class Mesh {
 
  private:
   std::string name_;
+  Diagnostics diagnostics_;
+  Bounds bounds_;
   std::vector<vec3> positions_;  // one more than used: Embree reads 16 bytes at the last vertex
   std::vector<Triangle> triangles_;
   std::vector<vec3> normals_;
@@ -47,6 +53,9 @@ class Mesh {
   std::vector<glm::uvec3> corners_;  // by triangle; empty: nothing is kept by corner
   std::vector<uint32_t> faces_;      // by triangle; empty: nothing is kept by face
 };
+
+// Scenes of one builder share the meshes that have not changed.
+using MeshList = std::vector<std::shared_ptr<const Mesh>>;
 
 // Object-to-world placement of a mesh.
 struct Instance {

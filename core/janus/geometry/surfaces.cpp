@@ -46,7 +46,7 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
   return entry->second;
 }
 
-void Surfaces::set_objects(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
+void Surfaces::set_objects(const MeshList& meshes, const std::vector<Instance>& instances,
                            const CameraView& camera, const PixelFootprint& footprint) {
   footprint_ = footprint;
   const bool needed = std::any_of(programs_.begin(), programs_.end(),
@@ -65,7 +65,7 @@ void Surfaces::set_objects(const std::vector<Mesh>& meshes, const std::vector<In
     data.object_index = instance.object_index;
     data.random = instance.random;
     objects_.push_back(data);
-    meshes_.push_back(&meshes[instance.mesh]);
+    meshes_.push_back(meshes[instance.mesh].get());
   }
 }
 

@@ -36,7 +36,7 @@ class Surfaces {
   uint32_t bind(uint32_t program, const Mesh& mesh, const std::map<std::string, vec4>& own = {});
 
   // The instances that hits speak of, in their order.
-  void set_objects(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
+  void set_objects(const MeshList& meshes, const std::vector<Instance>& instances,
                    const CameraView& camera, const PixelFootprint& footprint);
 
   // Shades a hit that is seen from the unit direction `view`.

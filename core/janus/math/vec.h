@@ -64,4 +64,15 @@ struct Bounds {
   float radius() const { return empty() ? 0.0f : 0.5f * glm::length(upper - lower); }
 };
 
+// Around the box `b`, which is not empty, where `m` takes it.
+inline Bounds transformed(const Bounds& b, const mat4& m) {
+  Bounds result;
+  for (int corner = 0; corner < 8; ++corner) {
+    const vec3 p((corner & 1 ? b.upper : b.lower).x, (corner & 2 ? b.upper : b.lower).y,
+                 (corner & 4 ? b.upper : b.lower).z);
+    result.extend(vec3(m * vec4(p, 1.0f)));
+  }
+  return result;
+}
+
 }  // namespace janus

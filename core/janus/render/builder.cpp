@@ -56,11 +56,12 @@ class Commit {
     }
   }
 
-  void add_meshes(const std::map<std::string, std::shared_ptr<const MeshDesc>>& meshes) {
-    for (const auto& [key, desc] : meshes) {
+  void add_meshes(const std::map<std::string, std::shared_ptr<MeshItem>>& meshes) {
+    for (const auto& [key, item] : meshes) {
       cancel_.throw_if_cancelled();
       mesh_index_[key] = static_cast<uint32_t>(scene_.meshes.size());
-      scene_.meshes.emplace_back(key, *desc, scene_.diagnostics);
+      scene_.meshes.push_back(item->mesh(key));
+      add_new(scene_.diagnostics, scene_.meshes.back()->diagnostics());
     }
   }
 
@@ -98,7 +99,7 @@ class Commit {
         seen.visibility &= rays;
         for (const uint32_t program : programs) {
           seen.materials.push_back(
-              scene_.surfaces.bind(program, scene_.meshes[seen.mesh], desc.attributes));
+              scene_.surfaces.bind(program, *scene_.meshes[seen.mesh], desc.attributes));
         }
         add_instance(std::move(seen));
       }
@@ -118,8 +119,9 @@ class Commit {
         {vec3(camera.transform[3]), parallel ? 0.0f : pixel, parallel ? pixel : 0.0f});
   }
 
-  void build_accel() {
-    scene_.accel = std::make_unique<Accel>(scene_.meshes, scene_.instances, cancel_);
+  void build_accel(const Scene* last) {
+    scene_.accel = std::make_unique<Accel>(scene_.meshes, scene_.instances, cancel_,
+                                           last ? last->accel.get() : nullptr);
   }
 
   void add_mesh_lights() {
@@ -138,7 +140,7 @@ class Commit {
             return program.emits() && (!program.sample_emission || program.varying_emission);
           });
       auto light =
-          std::make_unique<MeshLight>(*scene_.accel, scene_.surfaces, scene_.meshes[instance.mesh],
+          std::make_unique<MeshLight>(*scene_.accel, scene_.surfaces, *scene_.meshes[instance.mesh],
                                       instance, static_cast<uint32_t>(i));
       if (light->power() > 0.0f || by_chance) {
         instance.light = static_cast<int>(scene_.lights.size());
@@ -239,13 +241,19 @@ class Commit {
   bool surfaces_near(const LightDesc& lamp) const {
     const vec3 center(lamp.transform[3]);
     for (const Instance& instance : scene_.instances) {
-      const Mesh& mesh = scene_.meshes[instance.mesh];
+      const Mesh& mesh = *scene_.meshes[instance.mesh];
+      const auto near = [&](const Bounds& bounds) {
+        return length2(glm::clamp(center, bounds.lower, bounds.upper) - center) < sqr(lamp.radius);
+      };
+      if (mesh.triangles().empty() || !near(transformed(mesh.bounds(), instance.to_world))) {
+        continue;
+      }
       for (const Mesh::Triangle& triangle : mesh.triangles()) {
         Bounds bounds;
         for (const uint32_t v : triangle.v) {
           bounds.extend(vec3(instance.to_world * vec4(mesh.positions()[v], 1.0f)));
         }
-        if (length2(glm::clamp(center, bounds.lower, bounds.upper) - center) < sqr(lamp.radius)) {
+        if (near(bounds)) {
           return true;
         }
       }
@@ -298,13 +306,20 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   commit.add_meshes(meshes_);
   commit.add_instances(instances_);
   commit.set_objects(*camera_);
-  commit.build_accel();
+  std::shared_ptr<const Scene> last;
+  {
+    const std::lock_guard lock(last_->mutex);
+    last = last_->scene.lock();
+  }
+  commit.build_accel(last.get());
   commit.add_mesh_lights();
   commit.add_lamps(lights_, images_, *camera_);
   if (world_) {
     commit.add_world(*world_, images_, *camera_);
   }
   commit.finish();
+  const std::lock_guard lock(last_->mutex);
+  last_->scene = scene;
   return scene;
 }
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "janus/render/scene.h"
@@ -11,12 +12,33 @@
 
 namespace janus {
 
+// A mesh in the making: scenes that show it share one.
+class MeshItem {
+ public:
+  explicit MeshItem(MeshDesc desc) : desc_(std::move(desc)) {}
+
+  // Made of the description when it is first asked for. May be called from any thread. Throws what
+  // the mesh throws.
+  std::shared_ptr<const Mesh> mesh(const std::string& key) {
+    const std::lock_guard lock(mutex_);
+    if (!mesh_) {
+      mesh_ = std::make_shared<const Mesh>(key, std::move(desc_));
+    }
+    return mesh_;
+  }
+
+ private:
+  std::mutex mutex_;
+  MeshDesc desc_;  // empty once the mesh is made
+  std::shared_ptr<const Mesh> mesh_;
+};
+
 // Collects a description item by item and turns it into a Scene. Keys are the caller's; setting a
 // key again replaces the item. One thread at a time.
 class SceneBuilder {
  public:
   void set_mesh(const std::string& key, MeshDesc desc) {
-    meshes_[key] = std::make_shared<const MeshDesc>(std::move(desc));
+    meshes_[key] = std::make_shared<MeshItem>(std::move(desc));
   }
   void set_material(const std::string& key, MaterialDesc desc) {
     materials_[key] = std::move(desc);
@@ -31,19 +53,27 @@ class SceneBuilder {
   void remove(const std::string& key);
 
   // Validates everything and builds what rendering needs. Throws SceneError for what cannot be
-  // rendered, Cancelled; the rest is reported in Scene::diagnostics.
+  // rendered, Cancelled; the rest is reported in Scene::diagnostics. Meshes that were set before
+  // the last commit, their hierarchies for rays among them, are shared with its scene, if that is
+  // still in use: so a small change to a large scene takes little time.
   std::shared_ptr<const Scene> commit(const CancelToken& cancel) const;
 
  private:
   // Ordered maps: the scene, and so the image, does not depend on the order of the calls.
   // Copies of a builder share the meshes, its heaviest part.
-  std::map<std::string, std::shared_ptr<const MeshDesc>> meshes_;
+  std::map<std::string, std::shared_ptr<MeshItem>> meshes_;
   std::map<std::string, MaterialDesc> materials_;
   std::map<std::string, ImageDesc> images_;
   std::map<std::string, InstanceDesc> instances_;
   std::map<std::string, LightDesc> lights_;
   std::optional<WorldDesc> world_;
   std::optional<CameraDesc> camera_;
+
+  struct LastScene {
+    std::mutex mutex;
+    std::weak_ptr<const Scene> scene;
+  };
+  std::shared_ptr<LastScene> last_ = std::make_shared<LastScene>();  // of all copies
 };
 
 }  // namespace janus

@@ -36,7 +36,7 @@ class Scene {
   void turn_to_copy(SurfaceInteraction& hit, uint32_t copy) const {
     const Instance& instance = instances[copy];
     hit.instance = copy;
-    hit.material = instance.material(meshes[instance.mesh].triangles()[hit.primitive].material);
+    hit.material = instance.material(meshes[instance.mesh]->triangles()[hit.primitive].material);
   }
   // What the surface does there, seen from the unit direction `view`.
   void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result) const {
@@ -76,7 +76,7 @@ class Scene {
     return static_cast<const MeshLight*>(lights[index].get());
   }
 
-  std::vector<Mesh> meshes;
+  MeshList meshes;
   std::vector<Instance> instances;
   Surfaces surfaces;
   std::unique_ptr<Accel> accel;

@@ -22,6 +22,7 @@ multiply column vectors. `janus_core.capture` saves and loads scenes, `janus_cor
 
 from ._core import (
     Cancelled,
+    CommitTask,
     Diagnostic,
     Error,
     IoError,
@@ -39,6 +40,7 @@ from ._core import (
 
 __all__ = [
     "Cancelled",
+    "CommitTask",
     "Diagnostic",
     "Error",
     "IoError",

@@ -65,8 +65,20 @@ class Scene:
         """What could not be rendered as asked."""
     @property
     def counts(self) -> Counts:
-        """Numbers of meshes, instances, triangles (with instances), materials, and lights (sources
-        with a sampling of their own: lamps, emitting objects, the world)."""
+        """Numbers of meshes, instances, triangles (with instances), materials, lights (sources
+        with a sampling of their own: lamps, emitting objects, the world), and meshes_built: those
+        that are not shared with the scene before."""
+
+@final
+class CommitTask:
+    """A commit on a thread of its own. Dropping it cancels it."""
+
+    def wait(self, seconds: float) -> bool:
+        """Waits up to `seconds` for the end, without the GIL; True if it has come."""
+    def cancel(self) -> None:
+        """Asks it to stop and returns."""
+    def scene(self) -> Scene:
+        """Waits for the end. Raises SceneError, or Cancelled if it was cancelled."""
 
 @final
 class SceneBuilder:
@@ -251,8 +263,12 @@ class SceneBuilder:
         """Builds the immutable scene without holding the GIL.
 
         poll() is called about every 50 ms in this thread; True cancels. Raises SceneError,
-        Cancelled, or what poll raised. The builder stays as it is and can be committed again.
+        Cancelled, or what poll raised. The builder stays as it is and can be committed again:
+        meshes that were set before the last commit, with their hierarchies for rays, are shared
+        with its Scene, if that is still in use.
         """
+    def start_commit(self) -> CommitTask:
+        """The same on a thread of its own, without poll. The builder may be changed meanwhile."""
 
 @final
 class RenderSession:

@@ -9,6 +9,7 @@ class Counts(TypedDict):
     triangles: int
     lights: int
     materials: int
+    meshes_built: int
 
 class Progress(TypedDict):
     samples: int

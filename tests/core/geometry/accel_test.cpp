@@ -19,7 +19,7 @@ double brute_force(const Scene& scene, const Ray& ray, bool& rim) {
   double nearest = INFINITY;
   const dvec3 o(ray.origin), d(ray.direction);
   for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
+    const Mesh& mesh = *scene.meshes[instance.mesh];
     const glm::dmat4 m(instance.to_world);
     const auto at = [&](uint32_t v) { return dvec3(m * glm::dvec4(mesh.positions()[v], 1.0)); };
     for (const Mesh::Triangle& t : mesh.triangles()) {
@@ -140,8 +140,7 @@ TEST(Accel, OpaqueAndTransparentInstances) {
 }
 
 TEST(Accel, InstancesShareTheirMesh) {
-  Diagnostics diagnostics;
-  const std::vector<Mesh> meshes{Mesh("ball", ball(1, 64, true), diagnostics)};
+  const MeshList meshes{std::make_shared<const Mesh>("ball", ball(1, 64, true))};
   const auto bytes = [&](int count) {
     std::vector<Instance> instances(count);
     for (int i = 0; i < count; ++i) {
@@ -158,7 +157,7 @@ TEST(Accel, InstancesShareTheirMesh) {
     return accel.bytes();
   };
   const size_t one = bytes(1);
-  EXPECT_GT(one, meshes[0].triangles().size() * 32);
+  EXPECT_GT(one, meshes[0]->triangles().size() * 32);
   EXPECT_LT((bytes(5000) - one) / 4999, 2048u);
 }
 
@@ -179,7 +178,7 @@ class Offsets : public ::testing::TestWithParam<std::tuple<float, float, bool>> 
     return mesh;
   }
   SurfaceInteraction random_point(const Scene& scene) {
-    const auto count = static_cast<float>(scene.meshes[0].triangles().size());
+    const auto count = static_cast<float>(scene.meshes[0]->triangles().size());
     const auto triangle = static_cast<uint32_t>(random_.next() * count);
     return scene.accel->surface_point(0, triangle, square_to_triangle(random_.next_2d()));
   }
