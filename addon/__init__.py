@@ -1,15 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Janus: bidirectional path tracing for Blender."""
 
-import bpy
-
-from . import operators, properties, report, ui
-from .engine import JanusRenderEngine
+from . import engine, operators, properties, report, ui
 
 
 def register():
     properties.register()
-    bpy.utils.register_class(JanusRenderEngine)
+    engine.register()
     operators.register()
     ui.register()
 
@@ -17,6 +14,6 @@ def register():
 def unregister():
     ui.unregister()
     operators.unregister()
-    bpy.utils.unregister_class(JanusRenderEngine)
+    engine.unregister()
     properties.unregister()
     report.forget()

@@ -4,9 +4,13 @@
 import traceback
 
 import bpy
+from bpy.app.handlers import persistent
 
 from . import bridge, report
-from .render import final, passes
+from .render import final, passes, viewport_draw
+from .render.viewport import Viewport, forget_addresses
+from .sync.settings import view_settings
+from .sync.view import read_view
 
 
 class JanusRenderEngine(bpy.types.RenderEngine):
@@ -23,6 +27,9 @@ class JanusRenderEngine(bpy.types.RenderEngine):
     # Blender versions differ in what they pass; a TypeError here renders black without an error.
     def __init__(self, *args, **kwargs):
         super().__init__(*args, **kwargs)
+        self._viewport = None  # made when one is to be drawn
+        self._problem = ""  # of the last sync for it
+        self._last_trace = ""
 
     def update_render_passes(self, scene=None, renderlayer=None):
         passes.register_passes(self, scene, renderlayer)
@@ -40,3 +47,85 @@ class JanusRenderEngine(bpy.types.RenderEngine):
         layers = [layer.name for layer in scene.view_layers]
         report.keep(scene.name_full, depsgraph.view_layer.name, layers, log)
         log.flush(self)
+
+    # --- Viewports. What goes wrong is said over the picture, which stays. ---
+
+    def view_update(self, context, depsgraph):
+        self._problem = self._try(lambda: self._sync_viewport(context.space_data, depsgraph))
+
+    def view_draw(self, context, depsgraph):
+        problem = self._try(lambda: self._draw_viewport(context, depsgraph)) or self._problem
+        if problem:
+            self.update_stats("", problem)
+
+    def _sync_viewport(self, space, depsgraph) -> None:
+        if self._viewport is None:
+            self._viewport = Viewport(bridge.core())
+            self._screen = viewport_draw.PictureOnScreen()
+            self._waker = viewport_draw.Waker(self)
+        self._part = local_part(space)
+        self._viewport.sync(depsgraph, in_part(space) if any(self._part) else None)
+        scene = depsgraph.scene
+        layers = [layer.name for layer in scene.view_layers]
+        report.keep(scene.name_full, depsgraph.view_layer.name, layers, self._viewport.log)
+
+    def _draw_viewport(self, context, depsgraph) -> None:
+        viewport, space = self._viewport, context.space_data
+        if viewport is None:
+            return
+        if self._part != local_part(space):
+            self.tag_update()
+        try:
+            view = read_view(context.region, context.region_data, space, depsgraph)
+            # Of the original scene: its evaluated copy does not follow each property.
+            viewport.look(view, view_settings(depsgraph.scene))
+            viewport.advance()
+            self.update_stats("", viewport.status)
+            if viewport.busy:
+                self._waker.wake()
+        finally:
+            if viewport.picture is not None:
+                self._screen.draw(viewport.picture)
+
+    def _try(self, work) -> str:
+        """Does the work; what went wrong, for the viewport's line of text."""
+        try:
+            work()
+        except (report.RenderRefused, bridge.CoreUnavailable) as error:
+            return str(error)
+        except Exception as error:  # the core's complaint about the scene, or ours to fix
+            text = "".join(traceback.format_exception(error))
+            if text != self._last_trace:  # not at every redraw
+                print(text)
+            self._last_trace = text
+            return f"{type(error).__name__}: {error}"
+        return ""
+
+
+def local_part(space) -> tuple[bool, bool]:
+    """What a viewport may show less than the others: local view, local collections."""
+    return space.local_view is not None, space.use_local_collections
+
+
+def in_part(space):
+    return lambda obj: obj.visible_in_viewport_get(space)
+
+
+@persistent
+def _on_undo(*_):
+    forget_addresses()
+
+
+HANDLERS = (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post)
+
+
+def register():
+    bpy.utils.register_class(JanusRenderEngine)
+    for handlers in HANDLERS:
+        handlers.append(_on_undo)
+
+
+def unregister():
+    for handlers in HANDLERS:
+        handlers.remove(_on_undo)
+    bpy.utils.unregister_class(JanusRenderEngine)

@@ -63,6 +63,14 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         soft_max=1 << 16,
         default=64,
     )
+    preview_samples: IntProperty(
+        name="Viewport Samples",
+        description="Number of samples to render in the viewport, unlimited if 0",
+        min=0,
+        max=1 << 24,
+        soft_max=1 << 16,
+        default=1024,
+    )
     time_limit: FloatProperty(
         name="Time Limit",
         description="Limit the render time, without set-up (0 disables the limit)",

@@ -99,8 +99,6 @@ def window(camera, depsgraph, render) -> tuple[float, float, float, float]:
     orthographic one in metres.
 
     Blender's own projection matrix decides, so shift, sensor fit and pixel aspect are as there.
-    With P[0][0] = 2n/(r-l) and P[0][2] = (r+l)/(r-l), x = (ndc + P[0][2]) / P[0][0] at z = -1.
-    Orthographic: ndc = P[0][0] x + P[0][3].
     """
     width, height = frame_size(render)
     p = camera.calc_matrix_camera(
@@ -110,7 +108,16 @@ def window(camera, depsgraph, render) -> tuple[float, float, float, float]:
         scale_x=render.pixel_aspect_x,
         scale_y=render.pixel_aspect_y,
     )
-    x, y = (-p[0][3], -p[1][3]) if camera.data.type == "ORTHO" else (p[0][2], p[1][2])
+    return window_of(p, parallel=camera.data.type == "ORTHO")
+
+
+def window_of(p, parallel: bool) -> tuple[float, float, float, float]:
+    """The same from a projection matrix.
+
+    With P[0][0] = 2n/(r-l) and P[0][2] = (r+l)/(r-l), x = (ndc + P[0][2]) / P[0][0] at z = -1.
+    Orthographic: ndc = P[0][0] x + P[0][3].
+    """
+    x, y = (-p[0][3], -p[1][3]) if parallel else (p[0][2], p[1][2])
     return (
         (x - 1.0) / p[0][0],
         (x + 1.0) / p[0][0],

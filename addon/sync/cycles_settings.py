@@ -19,6 +19,7 @@ SHARED = (
     "film_transparent_glass",
     "film_transparent_roughness",
     "samples",
+    "preview_samples",
     "time_limit",
 )
 

@@ -15,11 +15,11 @@ ANIMATED = {"SEQUENCE", "MOVIE"}
 class ImageSync:
     """Sends pictures on first use."""
 
-    def __init__(self, builder, depsgraph, log):
+    def __init__(self, builder, depsgraph, cache, log):
         self._builder = builder
         self._frame = depsgraph.scene_eval.frame_current
+        self._cache = cache
         self._log = log
-        self._sent = set()  # keys
 
     def send(self, graph, owner) -> None:
         """Sends the images of the textures of a flat graph of `owner`, and notes in the graph which
@@ -43,24 +43,21 @@ class ImageSync:
                 properties["tiles"] = [tile.number for tile in image.tiles]
                 for tile in image.tiles:
                     self._send_tile(f"{properties['image']}:{tile.number}", image, tile, warn)
-            else:
+            elif not self._cache.has_image(properties["image"]):
                 self._send(properties["image"], image, warn)
 
     def _send_frame(self, key: str, image, frame: int, warn) -> None:
-        if key not in self._sent:
+        if not self._cache.has_image(key):
             with at_frame(image, frame):
                 self._send(key, image, warn)
 
     def _send_tile(self, key: str, image, tile, warn) -> None:
-        if key not in self._sent:
+        if not self._cache.has_image(key):
             with loaded_tile(image, tile) as found:
                 if found is not None:  # else the core names the tile
                     self._send(key, found, warn, image.name)
 
     def _send(self, key: str, image, warn, name: str = "") -> None:
-        if key in self._sent:
-            return
-        self._sent.add(key)
         found = pixels(image, warn)
         if found is None:  # the core names the node, as it does for nodes without an image
             return

@@ -24,30 +24,30 @@ SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 class InstanceSync:
     """Walks depsgraph.object_instances once and sends what it finds."""
 
-    def __init__(self, builder, materials, images, log, poll):
+    def __init__(self, builder, materials, images, cache, log, poll):
         self._builder = builder
+        self._cache = cache
         self._materials = materials
         self._images = images
         self._log = log
         self._poll = poll
         self._properties = InstanceProperties(log)
-        self._meshes = {}  # (address of the evaluated mesh, attributes) -> key; None: no faces
         self._kinds = {}  # addresses of an object, its data and who shows it -> arguments
         self._checked = set()
-        self._count = 0
 
-    def run(self, depsgraph) -> None:
+    def run(self, depsgraph, shown=None) -> None:
+        """`shown`: of an original object, whether it is part of the picture."""
         self._view_layer = depsgraph.view_layer
         for instance in depsgraph.object_instances:
             self._poll()
             obj = instance.object  # transient: nothing of it may be kept
             self._check(obj)
-            if not instance.show_self:
+            if not instance.show_self or not (shown is None or shown(owner_of(instance).original)):
                 continue
             if obj.type == "MESH":
                 self._surface(instance)
             elif obj.type == "LIGHT":
-                key = self._next_key("light")
+                key = self._cache.place("light")
                 matrix = instance.matrix_world
                 sync_light(self._builder, key, obj, matrix, depsgraph, self._images, self._log)
             elif obj.type in UNSUPPORTED_TYPES:
@@ -55,7 +55,7 @@ class InstanceSync:
 
     def _surface(self, instance) -> None:
         obj = instance.object
-        owner = instance.parent if instance.is_instance else obj
+        owner = owner_of(instance)
         # Instances may be a hundred thousand; what they have in common is read once.
         kind = (obj.original.as_pointer(), obj.data.as_pointer(), owner.original.as_pointer())
         if kind not in self._kinds:
@@ -66,7 +66,7 @@ class InstanceSync:
                 own = self._properties.attributes(instance, own_keys)
                 arguments = arguments | {"attributes": arguments["attributes"] | own}
             self._builder.set_instance(
-                self._next_key("instance"),
+                self._cache.place("instance"),
                 transform=np.array(instance.matrix_world, dtype=np.float64),
                 random=object_random(obj, instance.random_id),
                 **arguments,
@@ -80,7 +80,7 @@ class InstanceSync:
         materials = self._materials.keys(obj)
         keys = self._materials.attributes(materials)
         of_mesh = frozenset(key for key in keys if not key.startswith(OF_OBJECT + OF_INSTANCE))
-        mesh = self._mesh(obj, of_mesh)
+        mesh = self._mesh(obj, owner_of(instance), of_mesh)
         if mesh is None:
             return None, []
         shared = {
@@ -95,25 +95,25 @@ class InstanceSync:
         }
         return shared, [key for key in keys if key.startswith(OF_INSTANCE)]
 
-    def _mesh(self, obj, attributes: frozenset[str]) -> str | None:
+    def _mesh(self, obj, owner, attributes: frozenset[str]) -> str | None:
         """The key of the object's geometry, which is sent on first sight.
 
         Geometry goes by its evaluated mesh, which is shared by all who show it unchanged. Names
         would be wrong: instances made by Geometry Nodes carry the name of their maker.
         """
         identity = (obj.data.as_pointer(), attributes)
-        if identity not in self._meshes:
-            self._meshes[identity] = self._send_mesh(obj, attributes)
-        return self._meshes[identity]
+        sources = {item.original.as_pointer() for item in (obj, obj.data, owner)}
+        return self._cache.mesh(
+            identity, sources, lambda key: self._send_mesh(key, obj, attributes)
+        )
 
-    def _send_mesh(self, obj, attributes: frozenset[str]) -> str | None:
+    def _send_mesh(self, key: str, obj, attributes: frozenset[str]) -> bool:
         try:
             arrays = mesh_arrays(obj.to_mesh(), len(obj.material_slots), attributes, self._log)
             if arrays is None:
-                return None
-            key = f"mesh:{len(self._meshes)}"
+                return False
             self._builder.set_mesh(key, name=obj.data.name, **arrays)
-            return key
+            return True
         finally:
             obj.to_mesh_clear()
 
@@ -129,9 +129,10 @@ class InstanceSync:
         elif obj.type == "LIGHT":
             check_linking(obj, self._log)
 
-    def _next_key(self, kind: str) -> str:
-        self._count += 1
-        return f"{kind}:{self._count}"
+
+def owner_of(instance):
+    """The object that shows an instance: itself, or what instances it."""
+    return instance.parent if instance.is_instance else instance.object
 
 
 def object_random(obj, random_id: int) -> float:

@@ -9,8 +9,9 @@ from .world import uses_nodes
 class MaterialSync:
     """Sends materials on first use."""
 
-    def __init__(self, builder, depsgraph, images, log):
+    def __init__(self, builder, depsgraph, images, cache, log):
         self._builder = builder
+        self._cache = cache
         self._depsgraph = depsgraph
         self._override = depsgraph.view_layer_eval.material_override
         self._log = log
@@ -31,7 +32,7 @@ class MaterialSync:
     def _key(self, material) -> str | None:
         if material is None:
             return None
-        key = f"material:{material.name_full}"
+        key = self._cache.use(f"material:{material.name_full}")
         if key not in self._sent:
             graph = self._graph(material)
             self._images.send(graph, material)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One way from a depsgraph to a scene, for F12, captures and tests alike."""
+"""One way from a depsgraph to a scene, for F12, viewports, captures and tests alike."""
 
+from .cache import Changes, SceneCache
 from .camera import sync_camera
 from .image import ImageSync
 from .instance import InstanceSync
@@ -19,8 +20,25 @@ def sync_scene(builder, depsgraph, log, test_break=lambda: False) -> None:
     poll = Poll(test_break)
     poll()
     sync_camera(builder, depsgraph, log)
-    images = ImageSync(builder, depsgraph, log)
+    sync_objects(builder, depsgraph, SceneCache(builder), log, poll=poll)
+
+
+def sync_objects(
+    builder,
+    depsgraph,
+    cache: SceneCache,
+    log,
+    changes: Changes | None = None,
+    shown=None,
+    poll=lambda: None,
+) -> None:
+    """Sends all but the camera. What `cache` knows from before and is not among the changes stays
+    where it is. `shown`: see InstanceSync.run().
+    """
+    cache.begin(changes)
+    images = ImageSync(builder, depsgraph, cache, log)
     sync_world(builder, depsgraph, images, log)
     check_scene(depsgraph, log)
-    materials = MaterialSync(builder, depsgraph, images, log)
-    InstanceSync(builder, materials, images, log, poll).run(depsgraph)
+    materials = MaterialSync(builder, depsgraph, images, cache, log)
+    InstanceSync(builder, materials, images, cache, log, poll).run(depsgraph, shown)
+    cache.end()

@@ -9,6 +9,8 @@ import numpy as np
 
 from . import cycles_settings, passes
 
+UNLIMITED_SAMPLES = 1 << 24
+
 
 @dataclass(frozen=True)
 class Frame:
@@ -70,8 +72,29 @@ def crop_window(render, width: int, height: int):
 def render_settings(depsgraph) -> dict:
     """The keyword arguments of janus_core.RenderSettings. Raises RenderRefused."""
     scene = depsgraph.scene_eval
+    width, height = frame_size(scene.render)
+    return {
+        **light_settings(scene),
+        "width": width,
+        "height": height,
+        "crop": crop_window(scene.render, width, height),
+        "samples": depsgraph.view_layer_eval.samples or cycles_settings.value(scene, "samples"),
+        "seconds": cycles_settings.value(scene, "time_limit"),
+        **passes.arguments(scene, depsgraph.view_layer_eval),
+    }
+
+
+def view_settings(scene) -> dict:
+    """The same for a viewport, but for its resolution."""
+    return {
+        **light_settings(scene),
+        "samples": cycles_settings.value(scene, "preview_samples") or UNLIMITED_SAMPLES,
+    }
+
+
+def light_settings(scene) -> dict:
+    """What does not depend on how large and how long the render is to be."""
     render, janus = scene.render, scene.janus
-    width, height = frame_size(render)
 
     def shared(name):
         return cycles_settings.value(scene, name)
@@ -79,11 +102,6 @@ def render_settings(depsgraph) -> dict:
     filter_type = shared("pixel_filter_type")
     averages = janus.heuristic == "NONE" and janus.integrator == "BDPT"
     return {
-        "width": width,
-        "height": height,
-        "crop": crop_window(render, width, height),
-        "samples": depsgraph.view_layer_eval.samples or shared("samples"),
-        "seconds": shared("time_limit"),
         "seed": janus.seed,
         "threads": render.threads if render.threads_mode == "FIXED" else 0,
         "max_bounces": shared("max_bounces"),
@@ -109,7 +127,6 @@ def render_settings(depsgraph) -> dict:
         "film_transparent": render.film_transparent,
         "film_transparent_glass": shared("film_transparent_glass"),
         "film_transparent_roughness": shared("film_transparent_roughness"),
-        **passes.arguments(scene, depsgraph.view_layer_eval),
     }
 
 

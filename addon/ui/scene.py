@@ -14,6 +14,7 @@ class JANUS_RENDER_PT_sampling(JanusPanel, bpy.types.Panel):
 
     def draw(self, context):
         column = self.column()
+        column.prop(context.scene.janus, "preview_samples")
         column.prop(context.scene.janus, "samples")
         column.prop(context.scene.janus, "time_limit")
         column.prop(context.scene.janus, "seed")

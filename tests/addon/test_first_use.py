@@ -19,6 +19,7 @@ OWN = {
     "samples": 3,
     "time_limit": 60.0,
 }
+OF_VIEWPORTS = {"preview_samples": 77}
 CORE_NAMES = {
     "diffuse_bounces": "max_diffuse_bounces",
     "glossy_bounces": "max_glossy_bounces",
@@ -31,7 +32,7 @@ CORE_NAMES = {
 @pytest.fixture
 def cycles(scene):
     """The settings of an artist who works with Cycles."""
-    for name, value in OWN.items():
+    for name, value in (OWN | OF_VIEWPORTS).items():
         setattr(scene.cycles, name, value)
     return scene.cycles
 
@@ -47,7 +48,7 @@ def values(scene):
 
 
 def test_every_shared_setting_is_tested_here():
-    assert set(part("sync.cycles_settings").SHARED) == set(OWN)
+    assert set(part("sync.cycles_settings").SHARED) == set(OWN | OF_VIEWPORTS)
 
 
 def test_a_render_takes_what_the_file_says_for_cycles(scene, cycles, fake_core):
@@ -55,6 +56,14 @@ def test_a_render_takes_what_the_file_says_for_cycles(scene, cycles, fake_core):
     assert not part("sync.cycles_settings").adopted(scene)  # a render writes nothing
     assert fake_core.settings.clamp_indirect == 0.0
     assert any("copied from Cycles" in text for text in messages("INFO"))
+
+
+def test_so_does_a_viewport(scene, cycles):
+    assert part("sync.settings").view_settings(scene)["samples"] == 77
+    part("sync.cycles_settings").adopt(scene)
+    assert scene.janus.preview_samples == 77
+    scene.janus.preview_samples = 0
+    assert part("sync.settings").view_settings(scene)["samples"] > 1_000_000  # unlimited
 
 
 def test_what_the_file_says_for_janus_goes_first(scene, cycles, fake_core):

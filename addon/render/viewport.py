@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rendered viewport without its drawing: a scene that follows the depsgraph, and a session.
+
+Blender asks for a picture whenever it draws, on its main thread. So nothing here waits long: scenes
+are built and rendered on threads of the core, and a change shows first in large pixels (a draft),
+which come at once, before they are rendered as they should be.
+"""
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import report
+from ..sync.cache import SceneCache, read_changes
+from ..sync.difference import DifferenceBuilder
+from ..sync.scene_sync import sync_objects
+
+DIVIDERS = (1, 2, 4, 8)  # pixels of a draft are so many times as large
+FIRST_DIVIDER = 4  # before it is known how fast this scene renders
+DRAFT_SECONDS = 0.1  # that a draft may take
+SHORT_WAIT = 0.04  # seconds for which drawing may wait for what comes soon
+MIN_INTERVAL = 0.1  # seconds between two pictures
+MAX_SHARE = 0.1  # of the time may go into fetching and drawing them
+
+_generation = 0
+
+
+def forget_addresses() -> None:
+    """After an undo: data have moved, and what is known of addresses is wrong."""
+    global _generation
+    _generation += 1
+
+
+@dataclass(frozen=True)
+class Picture:
+    """float32[h, w, 4], scene linear, premultiplied, bottom row first, and where it belongs in the
+    region: x, y, width, height."""
+
+    pixels: np.ndarray
+    rectangle: tuple[int, int, int, int]
+
+
+class Viewport:
+    """Of one 3D viewport. Methods are for Blender's main thread.
+
+    sync() takes in what has changed in the scene, look() where the viewport looks; advance() sees
+    to it that this gets rendered, and says whether there is another picture. Raises RenderRefused
+    and the core's SceneError; what is shown stays as it was then.
+    """
+
+    def __init__(self, core, now=time.perf_counter):
+        self._core = core
+        self._now = now
+        self._start_over()
+        self._view = self._settings = None
+        self._session = None
+        self._finished = False  # has it got all its samples?
+        self._divider = 1  # of its pixels
+        self._shown = 0  # samples of the session in the picture
+        self._next_picture = 0.0
+        self._seconds = None  # that the last session took for a sample of a pixel
+        self.picture: Picture | None = None
+        self.log = report.DiagnosticsLog()
+
+    def _start_over(self) -> None:
+        self._builder = DifferenceBuilder(self._core.SceneBuilder())
+        self._cache = SceneCache(self._builder)
+        self._known = False  # has the builder got the scene?
+        self._generation = _generation
+        self._task = self._scene = None
+        self._outdated = False  # does the builder hold more than the scene and the task?
+        self._restart = False  # is the session another one's?
+
+    def sync(self, depsgraph, shown=None) -> None:
+        """Sends to the core what has changed. `shown`: see InstanceSync.run()."""
+        if self._generation != _generation:
+            self._start_over()
+        changes = read_changes(depsgraph) if self._known else None
+        if changes and changes.only_cameras:
+            return
+        self.log = report.DiagnosticsLog()
+        self._known = False
+        sync_objects(self._builder, depsgraph, self._cache, self.log, changes, shown)
+        self._known = True
+
+    def look(self, view, settings: dict) -> None:
+        """`settings`: those of RenderSettings but for its size."""
+        self._builder.set_camera(**view.camera)
+        if self._builder.changed:
+            self._builder.changed = False
+            self._outdated = True
+        if (view.scaled(1), settings) != (self._view and self._view.scaled(1), self._settings):
+            self._restart = True
+        self._view, self._settings = view, settings
+        # Drafts are quick, and without them a steady change would never show.
+        if (self._outdated or self._restart) and self._session and self._divider == 1:
+            self._session.cancel()
+
+    def advance(self) -> bool:
+        """Takes the next steps; True if `picture` is another one."""
+        if self._view is None or not self._known:
+            return False
+        self._commit()
+        if self._task is None and self._scene is not None and self._may_start():
+            self._start()
+        return self._fetch()
+
+    @property
+    def busy(self) -> bool:
+        """Is there more to come?"""
+        return bool(
+            self._outdated or self._restart or self._task or (self._session and not self._finished)
+        )
+
+    @property
+    def status(self) -> str:
+        if self._task is not None and self._scene is None:
+            return "Building scene"
+        if self._session is None:
+            return ""
+        samples = 0 if self._divider > 1 else self._shown
+        return f"Sample {samples}/{self._settings['samples']}"
+
+    def stop(self) -> None:
+        """Ends what is running. The object is of no use afterwards."""
+        self._session = self._task = self._scene = None
+
+    def _commit(self) -> None:
+        if self._task is None and self._outdated:
+            self._task = self._builder.start_commit()
+            self._outdated = False
+        if self._task is not None and self._task.wait(SHORT_WAIT):
+            task, self._task = self._task, None
+            self._scene = task.scene()
+            self.log.extend(self._scene.diagnostics)
+            self._restart = True
+
+    def _may_start(self) -> bool:
+        if self._session is None:
+            return True
+        if self._restart:
+            return self._divider == 1 or self._samples() > 0 or self._ended()
+        return self._divider > 1 and self._ended()
+
+    def _start(self) -> None:
+        divider = self._choose_divider() if self._restart or self._session is None else 1
+        self._restart = False
+        self._session = None  # waits for its threads
+        settings = self._settings | self._view.scaled(divider)
+        if divider > 1:
+            settings["samples"] = 1
+        session = self._core.RenderSession(self._scene, self._core.RenderSettings(**settings))
+        session.start()
+        self._session, self._divider = session, divider
+        self._rectangle = self._view.rectangle
+        self._finished, self._shown, self._next_picture = False, 0, 0.0
+        end = self._now() + SHORT_WAIT
+        while self._samples() == 0 and self._now() < end and not session.wait(0.002):
+            pass
+
+    def _choose_divider(self) -> int:
+        if self._seconds is None:
+            return FIRST_DIVIDER
+        pixels = self._view.rectangle[2] * self._view.rectangle[3]
+        for divider in DIVIDERS:
+            if pixels * self._seconds < DRAFT_SECONDS * divider**2:
+                return divider
+        return DIVIDERS[-1]
+
+    def _fetch(self) -> bool:
+        if self._session is None:
+            return False
+        ended, samples, now = self._ended(), self._samples(), self._now()
+        fresh = samples > self._shown
+        if fresh and (ended or now >= self._next_picture):
+            pixels = self._session.snapshot()
+            self.picture = Picture(pixels, self._rectangle)
+            self._shown = samples
+            pause = max(MIN_INTERVAL, (self._now() - now) / MAX_SHARE)
+            self._next_picture = self._now() + pause
+            self._seconds = self._session.stats()["seconds"] / (samples * pixels[..., 0].size)
+        else:
+            fresh = False
+        if ended and not self._finished:
+            self._finished = self._divider == 1
+            self._session.finish()  # raises what went wrong
+        return fresh
+
+    def _samples(self) -> int:
+        return self._session.progress()["samples"]
+
+    def _ended(self) -> bool:
+        return self._session.wait(0.0)

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a builder holds of a scene from one sync to the next, so that it need not be sent again."""
+
+from dataclasses import dataclass, field
+
+import bpy
+
+from ..nodes import image_key
+
+
+@dataclass
+class SentMesh:
+    key: str | None  # None: it has no faces
+    sources: set[int] = field(default_factory=set)  # addresses of what it comes from, as in Changes
+
+
+@dataclass(frozen=True)
+class Changes:
+    """What has changed since the last sync of a depsgraph, as far as it is expensive to send."""
+
+    geometry: frozenset[int]  # addresses of original objects and of their data
+    images: frozenset[str]  # their keys
+    only_cameras: bool  # nothing but cameras
+
+
+def read_changes(depsgraph) -> Changes:
+    geometry, images, only_cameras = set(), set(), True
+    for update in depsgraph.updates:
+        item = update.id.original
+        if update.is_updated_geometry:
+            geometry.add(item.as_pointer())
+        if isinstance(item, bpy.types.Image):
+            images.add(image_key(item))
+        camera = isinstance(item, bpy.types.Camera) or (
+            isinstance(item, bpy.types.Object) and item.type == "CAMERA"
+        )
+        only_cameras = only_cameras and camera
+    return Changes(frozenset(geometry), frozenset(images), only_cameras)
+
+
+class SceneCache:
+    """Addresses of evaluated data tell meshes apart. They are used again once the data are gone, so
+    an entry of an earlier sync also has to come from the same object or data as what is asked for.
+    """
+
+    def __init__(self, builder):
+        self._builder = builder
+        self._meshes = {}  # (address of the evaluated mesh, attributes) -> SentMesh
+        self._images = set()  # keys
+        self._placed = set()  # keys of materials, instances and lights
+        self._number = 0
+        self.begin()
+
+    def begin(self, changes: Changes | None = None) -> None:
+        """Starts a sync; without `changes` nothing is known to be as it was."""
+        self._used_meshes, self._used_images, self._now_placed = set(), set(), set()
+        for identity, entry in list(self._meshes.items()):
+            if changes is None or not changes.geometry.isdisjoint(entry.sources):
+                self._drop(identity)
+        for key in list(self._images):
+            if changes is None or any(is_part(key, image) for image in changes.images):
+                self._forget_image(key)
+
+    def end(self) -> None:
+        """Ends a sync: what it did not use goes."""
+        for key in self._placed - self._now_placed:
+            self._builder.remove(key)
+        self._placed = self._now_placed
+        for identity in self._meshes.keys() - self._used_meshes:
+            self._drop(identity)
+        for key in self._images - self._used_images:
+            self._forget_image(key)
+
+    def mesh(self, identity, sources: set[int], send) -> str | None:
+        """The key of a mesh, which send(key) sends if it is not there; send() tells whether there
+        is anything to be seen.
+        """
+        entry = self._meshes.get(identity)
+        if entry and identity not in self._used_meshes and entry.sources.isdisjoint(sources):
+            self._drop(identity)
+            entry = None
+        if entry is None:
+            self._number += 1
+            key = f"mesh:{self._number}"
+            entry = self._meshes[identity] = SentMesh(key if send(key) else None)
+        entry.sources |= sources
+        self._used_meshes.add(identity)
+        return entry.key
+
+    def has_image(self, key: str) -> bool:
+        """Is it there? From now on it is."""
+        self._used_images.add(key)
+        known = key in self._images
+        self._images.add(key)
+        return known
+
+    def use(self, key: str) -> str:
+        """Keeps the material of this key."""
+        self._now_placed.add(key)
+        return key
+
+    def place(self, kind: str) -> str:
+        """The key of the next instance or light."""
+        key = f"{kind}:{len(self._now_placed)}"
+        self._now_placed.add(key)
+        return key
+
+    def _drop(self, identity) -> None:
+        entry = self._meshes.pop(identity)
+        if entry.key is not None:
+            self._builder.remove(entry.key)
+
+    def _forget_image(self, key: str) -> None:
+        self._images.discard(key)
+        self._builder.remove(key)
+
+
+def is_part(key: str, image: str) -> bool:
+    """Is it the key of the image `image`, of one of its frames, or of one of its tiles?"""
+    return key == image or key.startswith((f"{image}@", f"{image}:"))
