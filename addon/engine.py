@@ -7,7 +7,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import bridge, report
-from .render import final, passes, viewport_draw
+from .render import final, passes, preview, viewport_draw
 from .render.viewport import Viewport, forget_addresses
 from .sync.settings import view_settings
 from .sync.view import read_view
@@ -18,7 +18,7 @@ class JanusRenderEngine(bpy.types.RenderEngine):
 
     bl_idname = "JANUS"
     bl_label = "Janus"
-    bl_use_preview = False
+    bl_use_preview = True
     bl_use_postprocess = True
     bl_use_eevee_viewport = True
     bl_use_shading_nodes_custom = False  # True, the default, hides Cycles' nodes in the editor
@@ -35,6 +35,9 @@ class JanusRenderEngine(bpy.types.RenderEngine):
         passes.register_passes(self, scene, renderlayer)
 
     def render(self, depsgraph):
+        if self.is_preview:
+            self._problem = self._try(lambda: preview.render_preview(self, depsgraph))
+            return
         log = report.DiagnosticsLog()
         try:
             final.render_layer(self, depsgraph, log)
