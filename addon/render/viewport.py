@@ -19,6 +19,7 @@ from ..sync.scene_sync import sync_objects
 DIVIDERS = (1, 2, 4, 8)  # pixels of a draft are so many times as large
 FIRST_DIVIDER = 4  # before it is known how fast this scene renders
 DRAFT_SECONDS = 0.1  # that a draft may take
+STEP_SECONDS = 0.5  # and a sample in smaller pixels after it; else there is a step between
 SHORT_WAIT = 0.04  # seconds for which drawing may wait for what comes soon
 MIN_INTERVAL = 0.1  # seconds between two pictures
 MAX_SHARE = 0.1  # of the time may go into fetching and drawing them
@@ -102,9 +103,11 @@ class Viewport:
         if self._view is None or not self._known:
             return False
         self._commit()
+        fresh = self._fetch()  # first: what ends now may not have been seen
         if self._task is None and self._scene is not None and self._may_start():
             self._start()
-        return self._fetch()
+            fresh = self._fetch() or fresh
+        return fresh
 
     @property
     def busy(self) -> bool:
@@ -144,7 +147,11 @@ class Viewport:
         return self._divider > 1 and self._ended()
 
     def _start(self) -> None:
-        divider = self._choose_divider() if self._restart or self._session is None else 1
+        if self._restart or self._session is None:
+            divider = self._divider_within(DRAFT_SECONDS, DIVIDERS)
+        else:
+            finer = [divider for divider in DIVIDERS if divider < self._divider]
+            divider = self._divider_within(STEP_SECONDS, finer)
         self._restart = False
         self._session = None  # waits for its threads
         settings = self._settings | self._view.scaled(divider)
@@ -159,14 +166,13 @@ class Viewport:
         while self._samples() == 0 and self._now() < end and not session.wait(0.002):
             pass
 
-    def _choose_divider(self) -> int:
+    def _divider_within(self, seconds: float, dividers) -> int:
+        """The least of them whose sample takes no longer, or else the largest."""
         if self._seconds is None:
             return FIRST_DIVIDER
         pixels = self._view.rectangle[2] * self._view.rectangle[3]
-        for divider in DIVIDERS:
-            if pixels * self._seconds < DRAFT_SECONDS * divider**2:
-                return divider
-        return DIVIDERS[-1]
+        quick = (d for d in dividers if pixels * self._seconds < seconds * d**2)
+        return next(quick, dividers[-1])
 
     def _fetch(self) -> bool:
         if self._session is None:

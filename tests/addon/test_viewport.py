@@ -332,7 +332,20 @@ def test_drafts_come_first_where_samples_are_slow(world_of_things, core):
             sizes.append(eye.viewport.picture.pixels.shape[:2])
             assert eye.viewport.picture.rectangle == (0, 0, WIDTH, HEIGHT)
             eye.viewport._seconds = 1.0
-    assert sizes[0] == (HEIGHT // 8, WIDTH // 8) and sizes[-1] == (HEIGHT, WIDTH)
+    assert sizes[:4] == [(HEIGHT // d, WIDTH // d) for d in (8, 4, 2, 1)]
+
+
+def test_a_draft_that_ends_between_two_draws_is_seen(world_of_things, core):
+    eye = Eye(core)
+    eye.look()
+    eye.viewport.advance()
+    first = eye.viewport.picture
+    end = time.monotonic() + 10.0
+    while first is None and time.monotonic() < end:
+        eye.viewport._session and eye.viewport._session.wait(10.0)
+        eye.viewport.advance()
+        first = eye.viewport.picture
+    assert first.pixels.shape[:2] == (HEIGHT // 4, WIDTH // 4)
 
 
 def test_settings_start_again(world_of_things, core):
