@@ -257,7 +257,7 @@ void bind_scene(py::module_& m) {
              bool camera, bool diffuse, bool glossy, bool transmission, bool shadow, bool holdout,
              const std::array<float, 4>& color, float object_index, float random,
              const std::map<std::string, std::array<float, 4>>& attributes,
-             std::string light_group) {
+             std::string light_group, std::string asset) {
             InstanceDesc desc{std::move(name),
                               std::move(mesh),
                               to_matrix(key, transform),
@@ -268,7 +268,8 @@ void bind_scene(py::module_& m) {
                               object_index,
                               random,
                               {},
-                              std::move(light_group)};
+                              std::move(light_group),
+                              std::move(asset)};
             for (const auto& [name, v] : attributes) {
               desc.attributes[name] = vec4(v[0], v[1], v[2], v[3]);
             }
@@ -280,12 +281,13 @@ void bind_scene(py::module_& m) {
           "visible_shadow"_a = true, "holdout"_a = false,
           "color"_a = std::array{1.0f, 1.0f, 1.0f, 1.0f}, "object_index"_a = 0.0f,
           "random"_a = 0.0f, "attributes"_a = std::map<std::string, std::array<float, 4>>(),
-          "light_group"_a = "",
+          "light_group"_a = "", "asset"_a = "",
           "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot; "
           "visible_*: the rays that meet it; holdout: leaves a hole in the picture where the "
           "camera "
           "sees it; attributes: four numbers under each key (see set_material()); light_group: "
-          "of what it emits; the rest is what the Object Info node says.")
+          "of what it emits; asset: the name of what it is a part of, for Cryptomatte; the rest is "
+          "what the Object Info node says.")
       .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,
            "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f,
            "soft_falloff"_a = true, "shape"_a = "SQUARE", "size"_a = 0.25f, "size_y"_a = 0.25f,

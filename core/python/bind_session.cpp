@@ -26,6 +26,10 @@ constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Wa
                                                  {"cancelled", Progress::State::Cancelled},
                                                  {"failed", Progress::State::Failed}};
 
+constexpr EnumName<MatteKind> kMatteKindNames[] = {{"Object", MatteKind::Object},
+                                                   {"Material", MatteKind::Material},
+                                                   {"Asset", MatteKind::Asset}};
+
 // --- Settings
 // -------------------------------------------------------------------------------------
 
@@ -68,6 +72,23 @@ std::string complaint(const std::string& text, Parse&& parse) {
   return "";
 }
 
+DataChoice to_data(const std::vector<std::string>& passes, const std::vector<std::string>& mattes,
+                   int levels) {
+  DataChoice choice;
+  choice.matte_levels = levels;
+  for (const std::string& name : passes) {
+    const auto* found = std::ranges::find(kDataPasses, name, &DataPassInfo::name);
+    if (found == std::end(kDataPasses)) {
+      throw SceneError("settings", "data_passes", "there is no pass '" + name + "'");
+    }
+    choice.passes[found - kDataPasses] = true;
+  }
+  for (const std::string& name : mattes) {
+    choice.mattes[static_cast<size_t>(from_name(kMatteKindNames, name, "cryptomatte"))] = true;
+  }
+  return choice;
+}
+
 RenderSettings make_settings(int width, int height, const Crop& crop, int samples, double seconds,
                              uint32_t seed, int threads, int max_bounces, int max_diffuse_bounces,
                              int max_glossy_bounces, int max_transmission_bounces,
@@ -80,8 +101,13 @@ RenderSettings make_settings(int width, int height, const Crop& crop, int sample
                              bool roulette, bool check_weights, bool next_event,
                              const std::string& connection_mode, const std::string& strategies,
                              const Expressions& expressions,
-                             const std::vector<std::string>& light_passes, int strategy_images) {
+                             const std::vector<std::string>& light_passes, int strategy_images,
+                             const std::vector<std::string>& data_passes,
+                             const std::vector<std::string>& cryptomatte, int cryptomatte_levels,
+                             float pass_alpha_threshold, const std::array<float, 3>& mist) {
   RenderSettings s;
+  s.data = to_data(data_passes, cryptomatte, cryptomatte_levels);
+  s.data_settings = {{mist[0], mist[1], mist[2]}, pass_alpha_threshold};
   s.width = width;
   s.height = height;
   if (crop) {
@@ -155,6 +181,23 @@ py::dict to_dict(const RenderSettings& s) {
   d["expressions"] = to_list(s.expressions);
   d["light_passes"] = s.light_passes;
   d["strategy_images"] = s.strategy_images;
+  py::list data_passes, cryptomatte;
+  for (size_t i = 0; i < kDataPassCount; ++i) {
+    if (s.data.passes[i]) {
+      data_passes.append(kDataPasses[i].name);
+    }
+  }
+  for (const auto& [name, kind] : kMatteKindNames) {
+    if (s.data.wants(kind)) {
+      cryptomatte.append(name);
+    }
+  }
+  d["data_passes"] = data_passes;
+  d["cryptomatte"] = cryptomatte;
+  d["cryptomatte_levels"] = s.data.matte_levels;
+  d["pass_alpha_threshold"] = s.data_settings.alpha_threshold;
+  const Mist& mist = s.data_settings.mist;
+  d["mist"] = py::make_tuple(mist.start, mist.depth, mist.falloff);
   d["film_exposure"] = s.film_exposure;
   d["film_transparent"] = s.film_transparent;
   d["film_transparent_glass"] = s.film_transparent_glass;
@@ -187,6 +230,11 @@ void bind_settings(py::module_& m) {
       "light_passes: Cycles' passes by Blender's names, DiffDir, DiffInd, DiffCol, the same of "
       "Gloss and Trans, Emit and Env; strategy_images: bdpt makes passes for each strategy of "
       "paths of up to so many edges; "
+      "data_passes: Depth, Position, IndexOB, IndexMA (of the first sample of a pixel), Normal, UV, "
+      "Mist, Denoising Albedo, Denoising Normal, Denoising Depth, Debug Sample Count; cryptomatte: "
+      "Object, Material, Asset, each in so many cryptomatte_levels (pictures of two ids); "
+      "pass_alpha_threshold: surfaces with less alpha are looked through; mist: start and depth in "
+      "metres, and the power of the falloff; "
       "film_exposure: a factor of the colour; film_transparent: the world is not in the picture; "
       "film_transparent_glass: nor behind glass of up to film_transparent_roughness; "
       "roulette: False traces every path and every shadow ray to its end (slow); "
@@ -210,7 +258,11 @@ void bind_settings(py::module_& m) {
       "check_weights"_a = d.check_weights, "next_event"_a = d.next_event,
       "connection_mode"_a = to_name(kConnectionModes, d.connection_mode), "strategies"_a = "",
       "expressions"_a = Expressions(), "light_passes"_a = std::vector<std::string>(),
-      "strategy_images"_a = d.strategy_images);
+      "strategy_images"_a = d.strategy_images, "data_passes"_a = std::vector<std::string>(),
+      "cryptomatte"_a = std::vector<std::string>(), "cryptomatte_levels"_a = d.data.matte_levels,
+      "pass_alpha_threshold"_a = d.data_settings.alpha_threshold,
+      "mist"_a = std::array{d.data_settings.mist.start, d.data_settings.mist.depth,
+                            d.data_settings.mist.falloff});
   settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
   settings.def("__repr__", [](const RenderSettings& s) {
     return py::str("RenderSettings(**{!r})").format(to_dict(s));
@@ -299,6 +351,10 @@ py::array_t<float> snapshot(const RenderSession& self, const std::string& name) 
 void bind_session(py::module_& m) {
   bind_settings(m);
   m.def(
+      "cryptomatte_hash",
+      [](const std::string& name) { return cryptomatte_hex(cryptomatte_hash(name)); }, "name"_a,
+      "The hash of a name in Cryptomatte, eight hexadecimal digits.");
+  m.def(
       "check_expression",
       [](const std::string& text) {
         return complaint(text, [](const std::string& t) { parse_expression(t); });
@@ -328,11 +384,19 @@ void bind_session(py::module_& m) {
            "Asks the render to stop and returns. Whole passes are kept.")
       .def("snapshot", &snapshot, "name"_a = "Combined",
            "The mean of the whole passes so far: float32 [height, width, 4] of the crop, scene "
-           "linear, premultiplied alpha, bottom row first; [height, width, 3] of other passes than "
-           "Combined. A new array each time.")
+           "linear, premultiplied alpha, bottom row first; other passes than Combined have three "
+           "channels, or what they need. A new array each time.")
       .def("passes", &RenderSession::passes,
            "The names that snapshot() knows: Combined, the expressions', then the strategies': "
-           "'s1 t2 weighted', 's1 t2 alone' (without weight), and 'longer weighted'.")
+           "'s1 t2 weighted', 's1 t2 alone' (without weight), and 'longer weighted'; then those of "
+           "data, CryptoObject00 and so on among them.")
+      .def(
+          "manifest",
+          [](const RenderSession& s, const std::string& kind) {
+            return s.manifest(from_name(kMatteKindNames, kind, "cryptomatte"));
+          },
+          "kind"_a,
+          "The names that Cryptomatte knows as Object, Material or Asset, with their hashes.")
       .def_property_readonly(
           "diagnostics", [](const RenderSession& s) { return s.diagnostics(); },
           "What of the settings has no effect in this scene: list of Diagnostic.")

@@ -71,7 +71,7 @@ struct Instance {
   bool holdout = false;                      // InstanceDesc::holdout
   vec4 color = vec4(1.0f);                   // what Object Info says: the object's colour,
   float object_index = 0.0f, random = 0.0f;  // its pass index, a number of its own in [0, 1]
-  std::string name, light_group;             // of the object
+  std::string name, light_group, asset;      // of the object (InstanceDesc)
 
   uint32_t material(uint32_t slot) const {
     // Cycles uses the last slot for an index beyond the list.

@@ -5,11 +5,16 @@
 
 namespace janus {
 
-uint32_t Surfaces::add_program(Program program, float material_index) {
+uint32_t Surfaces::add_program(Program program, const std::string& material,
+                               float material_index) {
   any_delta_ = any_delta_ || !program.constant() ||
                std::any_of(program.lobes.begin(), program.lobes.end(), is_delta);
   programs_.push_back(std::make_unique<const Program>(std::move(program)));
-  surfaces_.push_back({programs_.back().get(), nullptr, material_index});
+  if (material_names_.empty() || material_names_.back() != material) {
+    material_names_.push_back(material);
+  }
+  surfaces_.push_back({programs_.back().get(), nullptr, material_index,
+                       static_cast<uint32_t>(material_names_.size() - 1)});
   return static_cast<uint32_t>(surfaces_.size() - 1);
 }
 
@@ -40,7 +45,8 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
     };
     std::transform(program.attributes.begin(), program.attributes.end(), slots.get(), find);
     entry->second = static_cast<uint32_t>(surfaces_.size());
-    surfaces_.push_back({&program, slots.get(), surfaces_[surface].material_index});
+    surfaces_.push_back(
+        {&program, slots.get(), material_index(surface), material(surface)});
     attributes_.push_back(std::move(slots));
   }
   return entry->second;

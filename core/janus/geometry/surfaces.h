@@ -24,11 +24,16 @@ struct PixelFootprint {
 
 class Surfaces {
  public:
-  // A program and its material's pass index; its number.
-  uint32_t add_program(Program program, float material_index = 0.0f);
+  // A program of a material and its pass index; its number.
+  uint32_t add_program(Program program, const std::string& material, float material_index = 0.0f);
   const Program& program(uint32_t surface) const { return *surfaces_[surface].program; }
   // Programs, the default surface included.
   size_t size() const { return programs_.size(); }
+  // What passes of data tell apart: the material of a surface, as a number in material_names(), and
+  // its pass index.
+  uint32_t material(uint32_t surface) const { return surfaces_[surface].material; }
+  float material_index(uint32_t surface) const { return surfaces_[surface].material_index; }
+  const std::vector<std::string>& material_names() const { return material_names_; }
   // Can some surface reflect or refract without blur?
   bool any_delta() const { return any_delta_; }
   // The number of a program's surface on a mesh, which has attributes for it or not, in an instance
@@ -68,8 +73,10 @@ class Surfaces {
     const Program* program;
     const AttributeDesc* const* attributes;
     float material_index;
+    uint32_t material;
   };
   std::vector<std::unique_ptr<const Program>> programs_;
+  std::vector<std::string> material_names_;
   std::vector<Surface> surfaces_;  // those of add_program(), then those of bind()
   std::vector<std::unique_ptr<const AttributeDesc*[]>> attributes_;
   // By program, mesh, and what it reads of the instance.

@@ -36,7 +36,7 @@ class Commit {
   Commit(Scene& scene, const CancelToken& cancel) : scene_(scene), cancel_(cancel) {}
 
   void add_materials(const std::map<std::string, MaterialDesc>& materials, const ImageMap& images) {
-    scene_.surfaces.add_program(default_surface());
+    scene_.surfaces.add_program(default_surface(), "default_surface");  // Cycles' name
     for (const auto& [key, desc] : materials) {
       const std::string& name = desc.name.empty() ? key : desc.name;
       const auto first = first_with_answers(desc.graph);
@@ -51,7 +51,7 @@ class Commit {
             compile(desc.graph, name, images, said, {SeenTree::Of::Surface, kRays[i]});
         add_new(scene_.diagnostics, said);
         program.sample_emission = desc.sample_emission;
-        programs[i] = scene_.surfaces.add_program(std::move(program), desc.material_index);
+        programs[i] = scene_.surfaces.add_program(std::move(program), name, desc.material_index);
       }
     }
   }
@@ -75,6 +75,7 @@ class Commit {
       Instance instance;
       instance.name = name;
       instance.light_group = desc.light_group;
+      instance.asset = desc.asset;
       instance.mesh = mesh->second;
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;

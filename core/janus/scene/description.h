@@ -55,6 +55,7 @@ struct InstanceDesc {
   // What programs ask of it, by their keys (see shading/node_emitter.h).
   std::map<std::string, vec4> attributes;
   std::string light_group{};  // where what it emits belongs; empty: nowhere
+  std::string asset{};        // the name by which Cryptomatte knows it as a part; empty: its own
 };
 
 struct MaterialDesc {

@@ -42,12 +42,16 @@ RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings 
   check_lights();
   film_.emplace(settings_.rect(), Filter(settings_.filter, settings_.filter_width),
                 passes_.layers().count());
+  if (settings_.data.any()) {
+    data_film_.emplace(settings_.rect(), settings_.data);
+  }
 }
 
 // A system that promises more than it has would end the process later, and Blender with it.
 void RenderSession::check_memory() const {
   const size_t most = physical_memory();
-  const size_t needed = Film::bytes(settings_.rect(), passes_.layers().count());
+  const size_t needed = Film::bytes(settings_.rect(), passes_.layers().count()) +
+                        DataFilm::bytes(settings_.rect(), settings_.data);
   if (most > 0 && needed > most / 10 * 9) {
     const auto gigabytes = [](size_t bytes) { return std::to_string((bytes >> 30) + 1) + " GB"; };
     throw SceneError("settings", "passes",
@@ -165,12 +169,18 @@ void RenderSession::run() {
   integrator_settings.check_weights = settings_.check_weights;
   const RenderContext context{*scene_, *camera, *film_, pool, cancel_};
   const auto integrator = make_integrator(settings_, context, integrator_settings);
+  const auto data = data_film_ ? make_data_passes(context, integrator_settings,
+                                                  settings_.data_settings, *data_film_)
+                               : nullptr;
 
   for (int pass = 0; pass < settings_.samples; ++pass) {
     cancel_.throw_if_cancelled();
     // Only this thread and its pool write a pass, and nobody reads one that has not ended.
     film_->begin_pass();
     integrator->render_pass(pass);
+    if (data) {
+      data->render_pass(pass);
+    }
     const std::lock_guard lock(mutex_);
     film_->end_pass(pool);
     statistics_.samples = pass + 1;
@@ -239,12 +249,18 @@ std::vector<std::string> RenderSession::passes() const {
   for (const RenderPasses::Pass& pass : passes_.all()) {
     names.push_back(pass.name);
   }
+  for (const std::string& name : settings_.data.names()) {
+    names.push_back(name);
+  }
   return names;
 }
 
 Image RenderSession::snapshot(const std::string& name) const {
   if (name == "Combined") {
     return snapshot();
+  }
+  if (const auto data = settings_.data.names(); std::ranges::find(data, name) != data.end()) {
+    return data_film_->develop(name);
   }
   const auto pass = std::ranges::find(passes_.all(), name, &RenderPasses::Pass::name);
   if (pass == passes_.all().end()) {
@@ -261,6 +277,22 @@ Image RenderSession::snapshot(const std::string& name) const {
     }
   }
   return image;
+}
+
+std::map<std::string, std::string> RenderSession::manifest(MatteKind kind) const {
+  std::map<std::string, std::string> names;
+  const auto add = [&](const std::string& name) {
+    names.emplace(name, cryptomatte_hex(cryptomatte_hash(name)));
+  };
+  if (kind == MatteKind::Material) {
+    std::ranges::for_each(scene_->surfaces.material_names(), add);
+    return names;
+  }
+  for (const Instance& instance : scene_->instances) {
+    const bool own = kind == MatteKind::Object || instance.asset.empty();
+    add(own ? instance.name : instance.asset);
+  }
+  return names;
 }
 
 void RenderSession::finish() {

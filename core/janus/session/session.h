@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <exception>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -54,12 +55,15 @@ class RenderSession {
 
   // The mean of the whole passes so far: RGBA of the crop, scene linear, bottom row first.
   Image snapshot() const;
-  // Of the pass called `name`: RGBA of "Combined", RGB of the others. Throws Error for a name that
-  // is not in passes().
+  // Of the pass called `name`: RGBA of "Combined", RGB of those of light, and what kDataPasses says
+  // of those of data. Throws Error for a name that is not in passes().
   Image snapshot(const std::string& name) const;
 
   // The names of all pictures: "Combined", then those that the settings ask for.
   std::vector<std::string> passes() const;
+
+  // The names that Cryptomatte passes of this kind know, with their hashes.
+  std::map<std::string, std::string> manifest(MatteKind kind) const;
 
   // What of the settings has no effect in this scene.
   const Diagnostics& diagnostics() const { return diagnostics_; }
@@ -84,6 +88,7 @@ class RenderSession {
   mutable std::mutex mutex_;  // guards all below
   std::condition_variable ended_;
   std::optional<Film> film_;
+  std::optional<DataFilm> data_film_;  // guards itself
   Progress::State state_ = Progress::State::Waiting;
   std::exception_ptr error_;
   Statistics statistics_;

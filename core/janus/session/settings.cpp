@@ -55,7 +55,18 @@ void RenderSettings::validate() const {
   require(bidirectional || strategy_images == 0, "strategy_images", "are made by bdpt only");
   require(strategy_images >= 0 && strategy_images <= 12, "strategy_images",
           "must be from 0 to 12 edges");
+  require(data.matte_levels >= 1 && data.matte_levels <= 8, "cryptomatte_levels",
+          "must be from 1 to 8");
+  require(data_settings.alpha_threshold >= 0.0f && data_settings.alpha_threshold <= 1.0f,
+          "pass_alpha_threshold", "must be from 0 to 1");
+  const Mist& mist = data_settings.mist;
+  require(std::isfinite(mist.start) && std::isfinite(mist.depth) && mist.depth >= 0.0f &&
+              std::isfinite(mist.falloff) && mist.falloff > 0.0f,
+          "mist", "needs a start, a depth of at least 0, and a falloff above 0");
   std::set<std::string> names{"Combined"};
+  for (const std::string& name : data.names()) {
+    names.insert(name);
+  }
   for (const std::string& name : light_passes) {
     if (!is_light_pass(name)) {
       throw SceneError("settings", "light_passes", "there is no pass '" + name + "'");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "janus/film/film.h"
+#include "janus/integrator/data_passes.h"
 #include "janus/integrator/integrator.h"
 
 namespace janus {
@@ -50,6 +51,8 @@ struct RenderSettings {
   std::vector<ExpressionPass> expressions;  // at most PathAutomaton::kMostExpressions
   std::vector<std::string> light_passes;    // Cycles' passes of light, by names in light_passes()
   int strategy_images = 0;                  // bdpt: Layers::longest
+  DataChoice data;                          // passes of what the camera sees
+  DataSettings data_settings;
   float film_exposure = 1.0f;               // a factor of the finished picture's colour
   bool film_transparent = false;
   // On a transparent film: the world is not seen through glass of up to this roughness either.

@@ -14,5 +14,7 @@ struct SurfaceColor {
 
 // Seen from `wo`. Translucent lobes are diffuse; reflections of glass are glossy.
 SurfaceColor surface_color(const BsdfView& bsdf, vec3 wo);
+// Of one lobe of a surface with geometric normal `ng`.
+SurfaceColor surface_color(const Lobe& lobe, vec3 ng, vec3 wo);
 
 }  // namespace janus

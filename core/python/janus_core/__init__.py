@@ -35,6 +35,7 @@ from ._core import (
     build_info,
     check_expression,
     check_strategies,
+    cryptomatte_hash,
     node_types,
 )
 
@@ -53,5 +54,6 @@ __all__ = [
     "build_info",
     "check_expression",
     "check_strategies",
+    "cryptomatte_hash",
     "node_types",
 ]

@@ -170,6 +170,7 @@ class SceneBuilder:
         random: float = 0.0,
         attributes: Mapping[str, Sequence[float]] = ...,
         light_group: str = "",
+        asset: str = "",
     ) -> None:
         """Places the mesh with the key `mesh` in the world.
 
@@ -177,6 +178,7 @@ class SceneBuilder:
         default surface. visible_*: the rays that meet it, as in Blender. holdout: it
         leaves a hole where the camera sees it. attributes: four numbers under each key that
         set_material() gives of an instance. light_group: of what it emits, for expressions.
+        asset: the name of what it is a part of, for Cryptomatte; empty: its own.
         """
     def set_light(
         self,
@@ -289,11 +291,14 @@ class RenderSession:
         """Asks the render to stop and returns. Whole passes are kept."""
     def snapshot(self, name: str = "Combined") -> npt.NDArray[np.float32]:
         """The mean of the whole passes so far: float32[height, width, 4] of the crop, scene linear,
-        premultiplied alpha, bottom row first; [height, width, 3] of other passes than Combined. A
-        new array each time. Raises ValueError for a name that is not in passes()."""
+        premultiplied alpha, bottom row first. Other passes than Combined have three channels, or
+        what they need. A new array each time. Raises ValueError for a name that is not in passes()."""
     def passes(self) -> list[str]:
         """The names that snapshot() knows: Combined, the expressions', Cycles' passes of light, and
-        the strategies': 's1 t2 weighted', 's1 t2 alone' (without weight), 'longer weighted'."""
+        the strategies': 's1 t2 weighted', 's1 t2 alone' (without weight), 'longer weighted';
+        then those of data, CryptoObject00 and so on among them."""
+    def manifest(self, kind: Literal["Object", "Material", "Asset"]) -> dict[str, str]:
+        """The names that Cryptomatte knows, with their hashes."""
     @property
     def diagnostics(self) -> list[Diagnostic]:
         """What of the settings has no effect in this scene."""
@@ -307,6 +312,9 @@ class RenderSession:
 
 def check_expression(text: str) -> str:
     """What is wrong with a light path expression, for the user; empty: nothing."""
+
+def cryptomatte_hash(name: str) -> str:
+    """The hash of a name in Cryptomatte, eight hexadecimal digits."""
 
 def check_strategies(text: str) -> str:
     """What is wrong with a choice of strategies, for the user; empty: nothing."""

@@ -45,6 +45,11 @@ class RenderSettings:
         expressions: Sequence[tuple[str, str]] = ...,
         light_passes: Sequence[str] = ...,
         strategy_images: int = 0,
+        data_passes: Sequence[str] = ...,
+        cryptomatte: Sequence[Literal["Object", "Material", "Asset"]] = ...,
+        cryptomatte_levels: int = 3,
+        pass_alpha_threshold: float = 0.5,
+        mist: Sequence[float] = (5.0, 25.0, 2.0),
     ) -> None: ...
     def to_dict(self) -> dict[str, Any]:
         """The keyword arguments that make these settings."""
@@ -151,6 +156,22 @@ class RenderSettings:
     def light_passes(self) -> list[str]:
         """Cycles' passes of light, by Blender's names: DiffDir, DiffInd, DiffCol, the same of Gloss
         and Trans, Emit, Env."""
+    @property
+    def data_passes(self) -> list[str]:
+        """Depth, Position, IndexOB, IndexMA: of the first sample of a pixel; Normal, UV, Mist,
+        Denoising Albedo, Denoising Normal, Denoising Depth: means; Debug Sample Count."""
+    @property
+    def cryptomatte(self) -> list[str]:
+        """What Cryptomatte passes tell apart: Object, Material, Asset."""
+    @property
+    def cryptomatte_levels(self) -> int:
+        """Of each, pictures of two ids: CryptoObject00 and so on."""
+    @property
+    def pass_alpha_threshold(self) -> float:
+        """Surfaces with less alpha are looked through by Normal and UV."""
+    @property
+    def mist(self) -> tuple[float, float, float]:
+        """Start and depth in metres, and the power of the falloff."""
     @property
     def strategy_images(self) -> int:
         """bdpt: each strategy of paths of up to so many edges has passes; 0: none."""

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/film/data_film.h"
+
+#include "janus/util/error.h"
+
+namespace janus {
+
+namespace {
+
+constexpr float kNothing = 1e10f;  // the depth of the background, as in Cycles
+
+std::string level_name(size_t kind, size_t level) {
+  return std::string(kMatteNames[kind]) + (level < 10 ? "0" : "") + std::to_string(level);
+}
+
+}  // namespace
+
+bool DataChoice::any() const { return !names().empty(); }
+
+std::vector<std::string> DataChoice::names() const {
+  std::vector<std::string> found;
+  for (size_t i = 0; i < kDataPassCount; ++i) {
+    if (passes[i]) {
+      found.emplace_back(kDataPasses[i].name);
+    }
+  }
+  for (size_t kind = 0; kind < kMatteKinds; ++kind) {
+    for (size_t level = 0; mattes[kind] && level < static_cast<size_t>(matte_levels); ++level) {
+      found.push_back(level_name(kind, level));
+    }
+  }
+  return found;
+}
+
+DataFilm::DataFilm(FilmRect rect, DataChoice choice)
+    : rect_(rect), choice_(choice), counts_(rect.pixels()) {
+  for (size_t i = 0; i < kDataPassCount; ++i) {
+    if (choice.passes[i]) {
+      passes_[i].resize(rect.pixels() * kDataPasses[i].channels);
+    }
+  }
+  for (size_t kind = 0; kind < kMatteKinds; ++kind) {
+    if (choice.mattes[kind]) {
+      mattes_[kind].resize(rect.pixels() * slots());
+    }
+  }
+}
+
+size_t DataFilm::bytes(const FilmRect& rect, const DataChoice& choice) {
+  size_t floats = choice.any() ? 1 : 0;
+  for (size_t i = 0; i < kDataPassCount; ++i) {
+    floats += choice.passes[i] ? static_cast<size_t>(kDataPasses[i].channels) : 0;
+  }
+  for (const bool wanted : choice.mattes) {
+    floats += wanted ? 4 * static_cast<size_t>(choice.matte_levels) : 0;
+  }
+  return rect.pixels() * floats * sizeof(float);
+}
+
+std::span<Coverage> DataFilm::coverages(size_t pixel, size_t kind) {
+  return std::span(mattes_[kind]).subspan(pixel * slots(), slots());
+}
+
+void DataFilm::add(size_t first, std::span<const DataSample> samples) {
+  const std::lock_guard lock(mutex_);
+  for (size_t n = 0; n < samples.size(); ++n) {
+    const DataSample& sample = samples[n];
+    const size_t pixel = first + n;
+    const bool is_first = counts_[pixel]++ == 0;
+    for (size_t i = 0; i < kDataPassCount; ++i) {
+      const auto channels = static_cast<size_t>(kDataPasses[i].channels);
+      if (choice_.passes[i] && (is_first || !kDataPasses[i].first)) {
+        for (size_t c = 0; c < channels; ++c) {
+          passes_[i][pixel * channels + c] += sample.values[i][c];
+        }
+      }
+    }
+    for (const DataSample::Matte& matte : sample.mattes) {
+      for (size_t kind = 0; kind < kMatteKinds; ++kind) {
+        if (choice_.mattes[kind]) {
+          add_coverage(coverages(pixel, kind), matte.ids[kind], matte.weight);
+        }
+      }
+    }
+  }
+}
+
+Image DataFilm::develop(const std::string& name) const {
+  for (size_t i = 0; i < kDataPassCount; ++i) {
+    if (choice_.passes[i] && name == kDataPasses[i].name) {
+      return develop_pass(i);
+    }
+  }
+  for (size_t kind = 0; kind < kMatteKinds; ++kind) {
+    for (size_t level = 0; level < slots() / 2; ++level) {
+      if (choice_.mattes[kind] && name == level_name(kind, level)) {
+        return develop_matte(kind, level);
+      }
+    }
+  }
+  throw Error("there is no pass '" + name + "'");
+}
+
+Image DataFilm::develop_pass(size_t pass) const {
+  const auto channels = static_cast<size_t>(kDataPasses[pass].channels);
+  Image image(rect_.width(), rect_.height(), kDataPasses[pass].channels);
+  const std::lock_guard lock(mutex_);
+  for (size_t pixel = 0; pixel < counts_.size(); ++pixel) {
+    const bool mean = !kDataPasses[pass].first && counts_[pixel] > 0;
+    const float scale = mean ? 1.0f / static_cast<float>(counts_[pixel]) : 1.0f;
+    for (size_t c = 0; c < channels; ++c) {
+      float value = scale * passes_[pass][pixel * channels + c];
+      switch (static_cast<DataPass>(pass)) {
+        case DataPass::Depth:
+          value = value == 0.0f ? kNothing : value;
+          break;
+        case DataPass::Mist:  // samples say how much is to be seen, so that the background is 1
+          value = std::clamp(1.0f - value, 0.0f, 1.0f);
+          break;
+        case DataPass::SampleCount:
+          value = static_cast<float>(counts_[pixel]);
+          break;
+        default:
+          break;
+      }
+      image.pixels[pixel * channels + c] = value;
+    }
+  }
+  return image;
+}
+
+Image DataFilm::develop_matte(size_t kind, size_t level) const {
+  Image image(rect_.width(), rect_.height(), 4);
+  const std::lock_guard lock(mutex_);
+  std::vector<Coverage> sorted(slots());
+  for (size_t pixel = 0; pixel < counts_.size(); ++pixel) {
+    std::copy_n(mattes_[kind].begin() + static_cast<std::ptrdiff_t>(pixel * slots()), slots(),
+                sorted.begin());
+    std::ranges::stable_sort(sorted, std::ranges::greater(), &Coverage::weight);
+    const float scale = counts_[pixel] > 0 ? 1.0f / static_cast<float>(counts_[pixel]) : 0.0f;
+    for (size_t n = 0; n < 2; ++n) {
+      image.pixels[4 * pixel + 2 * n] = sorted[2 * level + n].id;
+      image.pixels[4 * pixel + 2 * n + 1] = scale * sorted[2 * level + n].weight;
+    }
+  }
+  return image;
+}
+
+}  // namespace janus

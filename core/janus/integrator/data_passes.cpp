@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/integrator/data_passes.h"
+
+#include <functional>
+
+#include "janus/integrator/pass.h"
+#include "janus/shading/features.h"
+
+namespace janus {
+
+float Mist::at(float distance) const {
+  const float share = depth > 0.0f ? (distance - start) / depth : (distance < start ? 0.0f : 1.0f);
+  return std::pow(std::clamp(share, 0.0f, 1.0f), falloff);
+}
+
+namespace {
+
+class DataPasses final : public PassIntegrator {
+ public:
+  DataPasses(const RenderContext& context, const IntegratorSettings& settings,
+             const DataSettings& data, DataFilm& film)
+      : PassIntegrator(context, settings),
+        data_(data),
+        film_(film),
+        choice_(film.choice()),
+        to_camera_(glm::inverse(context.scene.camera.transform)),
+        eye_(context.scene.camera.transform[3]),
+        forward_(-vec3(context.scene.camera.transform[2])) {
+    for (const std::string& name : context.scene.surfaces.material_names()) {
+      material_ids_.push_back(id_of(name));
+    }
+    for (const Instance& instance : context.scene.instances) {
+      object_ids_.push_back(id_of(instance.name));
+      asset_ids_.push_back(id_of(instance.asset.empty() ? instance.name : instance.asset));
+    }
+  }
+
+  void render_pass(int pass) override {
+    const size_t width = context_.film.rect().width();
+    for_each_row([&](size_t row, Counters& counters) {
+      std::vector<DataSample> samples(width);
+      for (size_t x = 0; x < width; ++x) {
+        look(row * width + x, pass, samples[x], counters);
+      }
+      film_.add(row * width, samples);
+    });
+  }
+
+ private:
+  static float id_of(const std::string& name) { return cryptomatte_id(cryptomatte_hash(name)); }
+
+  void look(size_t index, int pass, DataSample& sample, Counters& counters) const {
+    Sampler sampler = camera_sampler(index, pass);
+    sampler.start_block(0);
+    const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
+    const Ray ray = context_.camera.sample_ray(raster, sampler.next_2d()).ray;
+    look_straight(ray, sample, counters);
+    if (choice_.features()) {
+      look_for_features(ray, sampler, sample, counters);
+    }
+  }
+
+  // Follows the camera's ray through what is transparent.
+  void look_straight(Ray ray, DataSample& sample, Counters& counters) const {
+    Rgb through(1.0f);
+    bool done = false;  // have the passes that are means got their surface?
+    for (int crossings = 0; crossings <= settings_.walk.max_crossings; ++crossings) {
+      ++counters.camera_rays;
+      const auto hit = context_.scene.intersect(ray, RayType::Camera);
+      if (!hit) {
+        return;
+      }
+      const vec3 wo = -ray.direction;
+      const ShadingResult shading = context_.scene.shade(*hit, wo);
+      if (context_.scene.instances[hit->instance].holdout || shading.holdout >= 1.0f) {
+        return;
+      }
+      const float alpha = 1.0f - average(shading.transparency);
+      if (crossings == 0) {
+        see_first(*hit, sample);
+      }
+      if (!done && alpha >= data_.alpha_threshold) {
+        see_surface(*hit, shading.bsdf.view(hit->ng, hit->ns), wo, sample);
+        done = true;
+      }
+      const float share = average(through * (Rgb(1.0f) - shading.transparency));
+      add(sample, DataPass::Mist, vec3((1.0f - data_.mist.at(distance(hit->p))) * share));
+      see_mattes(*hit, average(through) * alpha, sample);
+      through *= shading.transparency;
+      if (is_black(through)) {
+        return;
+      }
+      ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, ray.direction), ray.direction,
+                ray.t_max - glm::length(hit->p - ray.origin)};
+    }
+  }
+
+  void see_first(const SurfaceInteraction& hit, DataSample& sample) const {
+    const bool panoramic = context_.scene.camera.type == CameraType::Equirectangular;
+    const vec3 p = hit.p;
+    sample.set(DataPass::Depth,
+               panoramic ? glm::length(p - eye_) : -(to_camera_ * vec4(p, 1.0f)).z);
+    sample.set(DataPass::Position, p);
+    sample.set(DataPass::ObjectIndex, context_.scene.instances[hit.instance].object_index);
+    sample.set(DataPass::MaterialIndex, context_.scene.surfaces.material_index(hit.material));
+  }
+
+  void see_surface(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo,
+                   DataSample& sample) const {
+    const vec3 ns = dot(wo, hit.ng) < 0.0f ? -hit.ns : hit.ns;
+    sample.set(DataPass::Normal, average_normal(bsdf, ns, wo));
+    const Mesh& mesh = *context_.scene.meshes[context_.scene.instances[hit.instance].mesh];
+    if (const AttributeDesc* uv = mesh.attribute("uv:"); uv && choice_.wants(DataPass::Uv)) {
+      ShadingPoint point{};
+      point.barycentric = hit.barycentric;
+      point.triangle = mesh.indices(hit.primitive);
+      point.attributes = &uv;
+      const vec4 value = point.attribute(0);
+      sample.set(DataPass::Uv, vec3(value.x, value.y, 1.0f));
+    }
+  }
+
+  void see_mattes(const SurfaceInteraction& hit, float weight, DataSample& sample) const {
+    if (weight > 0.0f && std::ranges::any_of(choice_.mattes, std::identity())) {
+      sample.mattes.push_back(
+          {{object_ids_[hit.instance],
+            material_ids_[context_.scene.surfaces.material(hit.material)],
+            asset_ids_[hit.instance]},
+           weight});
+    }
+  }
+
+  // As Cycles measures it for mist.
+  float distance(vec3 p) const {
+    return context_.scene.camera.type == CameraType::Orthographic
+               ? std::abs(dot(p - eye_, forward_))
+               : glm::length(p - eye_);
+  }
+
+  // Follows a path to the first surface that is rough enough for a denoiser, into mirrors and
+  // through glass.
+  void look_for_features(Ray ray, Sampler& sampler, DataSample& sample,
+                         Counters& counters) const {
+    Rgb share(1.0f);
+    RayType type = RayType::Camera;
+    float before = 0.0f;  // of the segment, from where it began to where `ray` does
+    for (int steps = 1; steps < settings_.walk.max_edges + settings_.walk.max_crossings; ++steps) {
+      ++counters.camera_rays;
+      const auto hit = context_.scene.intersect(ray, type);
+      if (!hit) {
+        add(sample, DataPass::DenoisingAlbedo, share * background(ray, type));
+        return;
+      }
+      const vec3 wo = -ray.direction;
+      const ShadingResult shading = context_.scene.shade(*hit, wo);
+      const BsdfView bsdf = shading.bsdf.view(hit->ng, hit->ns);
+      const float length = before + glm::length(hit->p - ray.origin);
+      add(sample, DataPass::DenoisingDepth, vec3(average(share) * length));
+      add(sample, DataPass::DenoisingAlbedo, share * shading.emission);
+      const SurfaceFeatures found = surface_features(bsdf, shading.transparency, wo);
+      if (found.rough) {
+        add(sample, DataPass::DenoisingAlbedo, share * found.albedo);
+        const vec3 n(to_camera_ * vec4(found.normal, 0.0f));
+        sample.set(DataPass::DenoisingNormal, vec3(n.x, n.y, -n.z));  // Cycles looks along +z
+        return;
+      }
+      share *= found.smooth;
+      sampler.start_block(static_cast<uint32_t>(steps));
+      const float through = average(shading.transparency);
+      const float pass = through > 0.0f ? through / (through + shading.bsdf.albedo()) : 0.0f;
+      if (sampler.next_1d() < pass) {
+        before = length;
+        ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, ray.direction), ray.direction};
+        continue;
+      }
+      const float u_lobe = sampler.next_1d();
+      const auto next = bsdf.sample(wo, u_lobe, sampler.next_2d(), TransportMode::Radiance);
+      if (!next) {
+        return;
+      }
+      type = next->transmitted ? RayType::Transmission : RayType::Glossy;
+      before = 0.0f;
+      ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, next->direction), next->direction};
+    }
+  }
+
+  // What shines from infinitely far away.
+  Rgb background(const Ray& ray, RayType type) const {
+    Rgb sum(0.0f);
+    context_.scene.lamp_index.for_each_on_ray(ray, [&](size_t lamp) {
+      const Light& light = *context_.scene.lights[lamp];
+      if (light.background && contains(light.visibility, type)) {
+        const auto hit = light.intersect(Ray{ray.origin, ray.direction, kInfinity});
+        sum += hit ? hit->radiance : Rgb(0.0f);
+      }
+    });
+    return sum;
+  }
+
+  static void add(DataSample& sample, DataPass pass, vec3 value) {
+    float* to = sample.values[static_cast<size_t>(pass)];
+    to[0] += value.x, to[1] += value.y, to[2] += value.z;
+  }
+
+  DataSettings data_;
+  DataFilm& film_;
+  DataChoice choice_;
+  mat4 to_camera_;
+  vec3 eye_, forward_;
+  std::vector<float> material_ids_, object_ids_, asset_ids_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_data_passes(const RenderContext& context,
+                                             const IntegratorSettings& settings,
+                                             const DataSettings& data, DataFilm& film) {
+  return std::make_unique<DataPasses>(context, settings, data, film);
+}
+
+}  // namespace janus

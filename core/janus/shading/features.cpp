@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/shading/features.h"
+
+#include "janus/shading/scatter.h"
+#include "janus/shading/surface_color.h"
+
+namespace janus {
+
+namespace {
+
+// A GGX lobe is nearly smooth up to this width: Cycles compares the square of it (its roughness is
+// the width) with that of 0.075.
+constexpr float kSmoothAlpha = 0.075f;
+// Of the weight, above which rough lobes are what is looked at.
+constexpr float kRoughShare = 0.25f;
+
+vec3 facing_normal(const Lobe& lobe, vec3 ng, vec3 wo) {
+  const bool back = dot(wo, ng) < 0.0f;
+  const vec3 n = back ? -lobe.normal : lobe.normal;
+  return is_ggx(lobe.type) ? valid_normal(n, back ? -ng : ng, wo) : n;
+}
+
+}  // namespace
+
+vec3 average_normal(const BsdfView& bsdf, vec3 ns, vec3 wo) {
+  vec3 sum(0.0f);
+  for (const Lobe& lobe : bsdf.lobes()) {
+    sum += std::abs(average(lobe.weight)) * facing_normal(lobe, bsdf.ng(), wo);
+  }
+  const float length = glm::length(sum);
+  return length > 0.0f ? sum / length : ns;
+}
+
+SurfaceFeatures surface_features(const BsdfView& bsdf, Rgb transparency, vec3 wo) {
+  SurfaceFeatures features;
+  features.smooth = transparency;
+  float sum = std::abs(average(transparency)), rough = 0.0f;
+  for (const Lobe& lobe : bsdf.lobes()) {
+    const float weight = std::abs(average(lobe.weight));
+    features.normal += weight * facing_normal(lobe, bsdf.ng(), wo);
+    sum += weight;
+    const SurfaceColor color = surface_color(lobe, bsdf.ng(), wo);
+    const Rgb albedo = color.diffuse + color.glossy + color.transmission;
+    if (is_ggx(lobe.type) && lobe.alpha <= kSmoothAlpha) {
+      features.smooth += albedo;
+    } else {
+      features.albedo += albedo;
+      rough += weight;
+    }
+  }
+  features.rough = sum == 0.0f || rough > kRoughShare * sum;
+  features.normal = sum > 0.0f ? features.normal / sum : features.normal;
+  return features;
+}
+
+}  // namespace janus
