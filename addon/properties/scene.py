@@ -14,7 +14,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from .view_layer import check
+from .view_layer import check, update_passes
 
 # The numbers are what .blend files hold: never change or reuse one.
 INTEGRATORS = (
@@ -46,6 +46,11 @@ CONNECTION_MODES = (
         1,
     ),
 )
+DENOISING_QUALITIES = (
+    ("HIGH", "High", "High quality", 1),
+    ("BALANCED", "Balanced", "Balanced between performance and quality", 2),
+    ("FAST", "Fast", "High performance", 3),
+)
 
 
 def _check_strategies(self, _context):
@@ -70,6 +75,18 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         default=0.0,
         step=100.0,
         unit="TIME_ABSOLUTE",
+    )
+    use_denoising: BoolProperty(
+        name="Use Denoising",
+        description="Denoise the rendered image",
+        default=False,
+        update=update_passes,
+    )
+    denoising_quality: EnumProperty(
+        name="Denoising Quality",
+        description="Overall denoising quality when using OpenImageDenoise",
+        items=DENOISING_QUALITIES,
+        default="HIGH",
     )
     seed: IntProperty(
         name="Seed",

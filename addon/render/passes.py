@@ -3,14 +3,14 @@
 
 import numpy as np
 
-from ..sync.passes import requested
+from ..sync.passes import COMBINED, requested
 
 
 def register_passes(engine, scene, view_layer) -> None:
     """Blender makes these passes and no others, and the compositor has sockets for them."""
-    engine.register_pass(scene, view_layer, "Combined", 4, "RGBA", "COLOR")
-    for found in requested(scene, view_layer):
-        engine.register_pass(scene, view_layer, found.name, 3, "RGB", "COLOR")
+    for found in (COMBINED, *requested(scene, view_layer)):
+        channels = found.channels
+        engine.register_pass(scene, view_layer, found.name, len(channels), channels, "COLOR")
 
 
 class LayerResult:

@@ -7,6 +7,7 @@ import bpy
 
 from .. import bridge
 from ..report import RenderRefused
+from . import cycles_settings
 
 MAX_EXPRESSIONS = 64  # of the core
 MAX_NAME_BYTES = 63  # of a pass in Blender
@@ -41,17 +42,27 @@ strategy_lengths: dict[str, int] = {}
 
 @dataclass(frozen=True)
 class Pass:
-    """A pass with three channels, all but Combined."""
-
     name: str  # in Blender's render result
     key: str  # for RenderSession.snapshot()
+    channels: str = "RGB"
+
+
+COMBINED = Pass("Combined", "Combined", "RGBA")
+NOISY_IMAGE = Pass("Noisy Image", "Combined", "RGBA")  # Combined before it is denoised
 
 
 def requested(scene, layer) -> list[Pass]:
     """All passes of a render of the view layer but Combined, in the order of the menus."""
     names = [name for name, _ in expressions(layer)]
     names += strategy_names(strategy_length(scene))
-    return [*light_passes(layer), *(Pass(name, name) for name in names)]
+    noisy = [NOISY_IMAGE] if denoises(scene, layer) else []
+    return [*light_passes(layer), *noisy, *(Pass(name, name) for name in names)]
+
+
+def denoises(scene, layer) -> bool:
+    """Is the picture to be denoised? Not that of strategies: their sum must be the picture."""
+    wanted = cycles_settings.value(scene, "use_denoising")
+    return wanted and cycles_settings.layer_denoises(layer) and not strategy_length(scene)
 
 
 def arguments(scene, layer) -> dict:
@@ -112,7 +123,8 @@ def name_problem(layer, item) -> str:
         return "The name of a pass must have no dot, OpenEXR files divide names there"
     if len(item.name.encode()) > MAX_NAME_BYTES:
         return "The name of the pass is too long"
-    taken = {"Combined", *(name for names in LIGHT_PASSES for name in names[1:])}
+    taken = {COMBINED.name, NOISY_IMAGE.name}
+    taken |= {name for names in LIGHT_PASSES for name in names[1:]}
     taken |= {name for toggle, name, _ in READY_MADE if getattr(layer.janus, toggle)}
     taken |= {f"Combined_{group.name}" for group in layer.lightgroups}
     for other in layer.janus.expressions:
