@@ -11,7 +11,7 @@ _subscriber = object()
 
 
 class JANUS_OT_copy_settings_from_cycles(bpy.types.Operator):
-    """Copy bounces, film, samples and time limit from Cycles"""
+    """Copy bounces, film, samples, time limit and denoising from Cycles"""
 
     bl_idname = "janus.copy_settings_from_cycles"
     bl_label = "Copy Settings from Cycles"

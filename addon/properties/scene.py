@@ -14,7 +14,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from .view_layer import check
+from .view_layer import check, update_passes
 
 # The numbers are what .blend files hold: never change or reuse one.
 INTEGRATORS = (
@@ -45,6 +45,11 @@ CONNECTION_MODES = (
         "Each camera path has a light path of its own, and all their vertices are joined",
         1,
     ),
+)
+DENOISING_QUALITIES = (
+    ("HIGH", "High", "High quality", 1),
+    ("BALANCED", "Balanced", "Balanced between performance and quality", 2),
+    ("FAST", "Fast", "High performance", 3),
 )
 
 
@@ -78,6 +83,38 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         default=0.0,
         step=100.0,
         unit="TIME_ABSOLUTE",
+    )
+    use_denoising: BoolProperty(
+        name="Use Denoising",
+        description="Denoise the rendered image",
+        default=False,
+        update=update_passes,
+    )
+    denoising_quality: EnumProperty(
+        name="Denoising Quality",
+        description="Overall denoising quality when using OpenImageDenoise",
+        items=DENOISING_QUALITIES,
+        default="HIGH",
+    )
+    denoising_input_passes: EnumProperty(
+        name="Denoising Input Passes",
+        description="Passes that tell the denoiser noise from detail of shaders and geometry",
+        items=(
+            ("RGB", "None", "The picture alone", 1),
+            ("RGB_ALBEDO", "Albedo", "The picture and its albedo", 2),
+            ("RGB_ALBEDO_NORMAL", "Albedo and Normal", "The picture, its albedo and normals", 3),
+        ),
+        default="RGB_ALBEDO_NORMAL",
+    )
+    denoising_prefilter: EnumProperty(
+        name="Denoising Prefilter",
+        description="What to do about the noise of albedo and normals themselves",
+        items=(
+            ("NONE", "None", "Nothing: for passes without noise", 1),
+            ("FAST", "Fast", "Denoise them along with the picture", 2),
+            ("ACCURATE", "Accurate", "Denoise them first, which takes more time", 3),
+        ),
+        default="ACCURATE",
     )
     seed: IntProperty(
         name="Seed",

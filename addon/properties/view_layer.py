@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""view_layer.janus: the passes that Blender has no switches for."""
+"""view_layer.janus: what Blender has no switches for, above all passes."""
 
 import bpy
 from bpy.props import (
@@ -19,6 +19,12 @@ def check(function: str, text: str) -> str:
         return getattr(bridge.core(), function)(text)
     except bridge.CoreUnavailable:
         return ""  # the panels say that, in a place of its own
+
+
+def update_passes(self, _context):
+    """The compositor's sockets follow a setting that changes which passes there are."""
+    for layer in self.id_data.view_layers:
+        layer.update_render_passes()
 
 
 def _check_expression(self, _context):
@@ -46,8 +52,14 @@ class JanusLightPathExpression(bpy.types.PropertyGroup):
 
 
 class JanusViewLayerSettings(bpy.types.PropertyGroup):
-    """Passes of Janus"""
+    """View layer settings of Janus"""
 
+    use_denoising: BoolProperty(
+        name="Use Denoising",
+        description="Denoise the rendered image",
+        default=True,
+        update=update_passes,
+    )
     use_pass_direct: BoolProperty(
         name="Direct",
         description="Deliver the light that comes to the seen surface straight from its source",
@@ -66,6 +78,13 @@ class JanusViewLayerSettings(bpy.types.PropertyGroup):
         name="Caustics",
         description="Deliver the light that mirrors, glass and glossy surfaces throw on diffuse "
         "ones",
+    )
+    pass_debug_sample_count: BoolProperty(
+        name="Sample Count", description="Number of samples that each pixel has got"
+    )
+    denoising_store_passes: BoolProperty(
+        name="Denoising Data",
+        description="Deliver albedo, normals and depth as denoisers need them",
     )
     expressions: CollectionProperty(name="Light Path Expressions", type=JanusLightPathExpression)
     active_expression: IntProperty(name="Active Expression", min=0, options={"HIDDEN"})

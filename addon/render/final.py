@@ -9,19 +9,24 @@ import numpy as np
 
 from .. import bridge
 from ..report import RenderCancelled, RenderRefused
-from ..sync import sync_scene
-from ..sync.passes import Pass, requested
+from ..sync import cycles_settings, sync_scene
+from ..sync.passes import COMBINED, denoises, guides_of, requested, unsupported
 from ..sync.settings import frame as read_frame
 from ..sync.settings import render_settings
+from . import denoise
 from .partial import save_partial
 from .passes import LayerResult
 from .progress import Rhythm, fraction, status
 
 POLL_SECONDS = 0.05
 
+# Passes that tell detail from noise, where the core has them: argument of denoise() -> key.
+GUIDES = {"albedo": "Denoising Albedo", "normal": "Denoising Normal"}
+
 # Statistics of the last view layer that was rendered in this process, for scripts that drive
 # Blender (bpy.ops.render.render returns nothing): session.stats() of the core plus sync_seconds,
-# commit_seconds, counts (of the scene), cancelled, view_layer, frame. Empty if it failed.
+# commit_seconds, denoise_seconds (0 if not asked for), counts (of the scene), cancelled,
+# view_layer, frame. Empty if it failed.
 last_render: dict = {}
 
 # Blender shows the passes of a render to no script. Those of the scenes named here are kept: name
@@ -40,21 +45,12 @@ def render_layer(engine, depsgraph, log) -> None:
     kept_passes.pop(depsgraph.view_layer_eval.name, None)
     frame = read_frame(depsgraph, engine.is_animation)
     result = LayerResult(engine, frame)
-    stamp = None
     try:
-        stats = _render(engine, depsgraph, frame, result, log)
-        stamp = {
-            "version": bridge.core().__version__,
-            "samples": stats["samples"],
-            "seed": stats["seed"],
-        }
-        last_render.update(stats)
+        last_render.update(_render(engine, depsgraph, frame, result, log))
     except RenderCancelled:
         log.info("Stopped by the user before the first sample")
     finally:
         result.end()
-    if stamp:
-        result.stamp(**stamp)
 
 
 def _render(engine, depsgraph, frame, result, log) -> dict:
@@ -66,6 +62,8 @@ def _render(engine, depsgraph, frame, result, log) -> dict:
     with _user_errors(core):
         session = core.RenderSession(scene, settings)
     log.extend(session.diagnostics)
+    for name in unsupported(depsgraph.view_layer_eval):
+        log.warning(f"The pass '{name}' is not supported yet, it stays empty")
     log.flush(engine)
     try:
         cancelled = _run(engine, session, settings, result)
@@ -73,16 +71,25 @@ def _render(engine, depsgraph, frame, result, log) -> dict:
     except Exception:
         _save_what_there_is(session, frame, result, log)
         raise
+    started = time.perf_counter()
+    denoised = denoises(depsgraph.scene_eval, depsgraph.view_layer_eval) and not cancelled
+    if denoised:
+        cancelled = _denoise(engine, session, settings, depsgraph, result, log)
     stats |= session.stats()
     stats |= {
+        "denoise_seconds": time.perf_counter() - started if denoised else 0.0,
         "cancelled": cancelled,
         "seed": settings.seed,
         "view_layer": frame.view_layer,
         "frame": frame.number,
     }
+    result.stamp(version=core.__version__, samples=stats["samples"], seed=settings.seed)
+    for kind in settings.cryptomatte:
+        result.stamp_matte(kind, session.manifest(kind), core.cryptomatte_hash)
     log.info(
         f"View layer '{frame.view_layer}': {stats['samples']} samples in {stats['seconds']:.2f} s,"
         f" export {stats['sync_seconds']:.2f} s, build {stats['commit_seconds']:.2f} s"
+        + (f", denoising {stats['denoise_seconds']:.2f} s" if denoised else "")
     )
     return stats
 
@@ -151,13 +158,42 @@ def _hand_over(session, depsgraph, result) -> None:
     keep = scene.name_full in keep_passes_of
     kept = kept_passes.setdefault(layer.name, {}) if keep else None
     known = set(session.passes())
-    for found in (Pass("Combined", "Combined"), *requested(scene, layer)):
+    for found in (COMBINED, *requested(scene, layer)):
         if found.key in known:
             pixels = session.snapshot(found.key)
             result.fill(found.name, pixels)
             if kept is not None:
                 kept[found.name] = pixels
     result.show()
+
+
+def _denoise(engine, session, settings, depsgraph, result, log) -> bool:
+    """Puts the picture without noise into Combined. Returns whether the user stopped that.
+
+    Blender has the noisy picture already, and keeps it if this is stopped or cannot be done.
+    """
+    engine.update_stats("", "Denoising")
+    wanted = guides_of(depsgraph.scene_eval)
+    guides = {name: session.snapshot(key) for name, key in GUIDES.items() if key in wanted}
+    try:
+        pixels = denoise.denoise(
+            session.snapshot(COMBINED.key),
+            **guides,
+            prefilter=cycles_settings.value(depsgraph.scene_eval, "denoising_prefilter"),
+            quality=cycles_settings.value(depsgraph.scene_eval, "denoising_quality"),
+            threads=settings.threads,
+            cancel=engine.test_break,
+        )
+    except denoise.DenoiseCancelled:
+        log.info("Denoising was stopped by the user: the picture is as it was rendered")
+        return True
+    except denoise.DenoiseFailed as error:
+        log.warning(f"The picture is not denoised: {error}")
+        return False
+    result.push({COMBINED.name: pixels})
+    if kept := kept_passes.get(depsgraph.view_layer_eval.name):
+        kept[COMBINED.name] = pixels
+    return False
 
 
 def _save_what_there_is(session, frame, result, log) -> None:

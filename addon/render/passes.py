@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's render result: which passes it has, and how pixels get into it."""
 
+import json
+
 import numpy as np
 
-from ..sync.passes import requested
+from ..sync.passes import COMBINED, requested
 
 
 def register_passes(engine, scene, view_layer) -> None:
     """Blender makes these passes and no others, and the compositor has sockets for them."""
-    engine.register_pass(scene, view_layer, "Combined", 4, "RGBA", "COLOR")
-    for found in requested(scene, view_layer):
-        engine.register_pass(scene, view_layer, found.name, 3, "RGB", "COLOR")
+    for found in (COMBINED, *requested(scene, view_layer)):
+        channels = found.channels
+        engine.register_pass(scene, view_layer, found.name, len(channels), channels, found.kind)
 
 
 class LayerResult:
@@ -24,6 +26,7 @@ class LayerResult:
         self._engine = engine
         self._frame = frame
         self._result = None
+        self._fields = {}  # of the metadata
 
     def push(self, pixels: dict[str, np.ndarray]) -> None:
         """Shows float32 arrays [H, W, C] by pass name, bottom row first."""
@@ -51,12 +54,27 @@ class LayerResult:
         self._begin()
         self._engine.end_result(self._result)
         self._result = None
+        if self._fields:
+            result = self._engine.get_result()
+            for name, value in self._fields.items():
+                result.stamp_data_add_field(name, value)
 
     def stamp(self, **fields) -> None:
-        """Writes janus/<field> into the metadata of the picture. Only after `end`."""
-        result = self._engine.get_result()
-        for name, value in fields.items():
-            result.stamp_data_add_field(f"janus/{name}", str(value))
+        """What `end` writes into the metadata of the picture, as janus/<field>."""
+        self._fields |= {f"janus/{name}": str(value) for name, value in fields.items()}
+
+    def stamp_matte(self, kind: str, names: dict[str, str], hash_of) -> None:
+        """The metadata of a Cryptomatte: what readers need to know names by their hashes."""
+        name = f"{self._frame.view_layer}.Crypto{kind}"
+        manifest = json.dumps(names, ensure_ascii=False, separators=(",", ":"))
+        values = {
+            "name": name,
+            "hash": "MurmurHash3_32",
+            "conversion": "uint32_to_float32",
+            "manifest": manifest,
+        }
+        prefix = f"cryptomatte/{hash_of(name)[:7]}"
+        self._fields |= {f"{prefix}/{field}": value for field, value in values.items()}
 
     def _begin(self) -> None:
         if self._result is None:  # with a border, Blender clips this to the border

@@ -21,7 +21,15 @@ SHARED = (
     "samples",
     "preview_samples",
     "time_limit",
+    "use_denoising",
+    "denoising_quality",
+    "denoising_input_passes",
+    "denoising_prefilter",
 )
+
+# Cycles' defaults for these are no answers: the samples are a ceiling for its adaptive sampling,
+# and denoising is a bias, which here is on only where somebody has asked for it.
+CHOSEN = ("samples", "use_denoising")
 
 
 def value(scene, name: str):
@@ -37,11 +45,21 @@ def from_cycles(scene) -> dict:
     if cycles is None:
         return {}
     values = {name: getattr(cycles, name) for name in SHARED if hasattr(cycles, name)}
-    # Cycles' default is a ceiling for its adaptive sampling. Only a number that somebody chose is
-    # an answer to how many samples the picture needs.
-    if not cycles.is_property_set("samples"):
-        values.pop("samples", None)
+    for name in CHOSEN:
+        if not cycles.is_property_set(name):
+            values.pop(name, None)
     return values
+
+
+def layer_denoises(layer) -> bool:
+    """view_layer.janus.use_denoising, or Cycles' while the file has none."""
+    if layer.janus.is_property_set("use_denoising"):
+        return layer.janus.use_denoising
+    return _cycles_layer_denoises(layer)
+
+
+def _cycles_layer_denoises(layer) -> bool:
+    return getattr(getattr(layer, "cycles", None), "use_denoising", True)
 
 
 def adopted(scene) -> bool:
@@ -55,6 +73,9 @@ def adopt(scene, again: bool = False) -> None:
     for name in SHARED:
         if again or not scene.janus.is_property_set(name):
             setattr(scene.janus, name, values.get(name, getattr(scene.janus, name)))
+    for layer in scene.view_layers:
+        if again or not layer.janus.is_property_set("use_denoising"):
+            layer.janus.use_denoising = _cycles_layer_denoises(layer)
     scene.janus.cycles_notice = bool(values)
 
 
@@ -62,7 +83,9 @@ def notice(scene) -> str:
     """What the user has to know as long as the values are Cycles' and nobody has looked at them."""
     if not from_cycles(scene) or (adopted(scene) and not scene.janus.cycles_notice):
         return ""
-    text = "Bounces, film and samples are copied from Cycles"
+    text = "Bounces, film, samples and denoising are copied from Cycles"
+    if scene.cycles.use_denoising and not value(scene, "use_denoising"):
+        text = "Bounces, film and samples are copied from Cycles. Denoising is off"
     left_out = _left_out(scene.cycles)
     return f"{text}. Not copied, as it cuts caustics: {', '.join(left_out)}" if left_out else text
 

@@ -38,6 +38,8 @@ class InstanceSync:
     def run(self, depsgraph, shown=None) -> None:
         """`shown`: of an original object, whether it is part of the picture."""
         self._view_layer = depsgraph.view_layer
+        # What passes read of meshes, whatever the materials.
+        self._of_passes = frozenset(["uv:"] if self._view_layer.use_pass_uv else [])
         for instance in depsgraph.object_instances:
             self._poll()
             obj = instance.object  # transient: nothing of it may be kept
@@ -78,7 +80,7 @@ class InstanceSync:
         """
         obj = instance.object
         materials = self._materials.keys(obj)
-        keys = self._materials.attributes(materials)
+        keys = self._materials.attributes(materials) | self._of_passes
         of_mesh = frozenset(key for key in keys if not key.startswith(OF_OBJECT + OF_INSTANCE))
         mesh = self._mesh(obj, owner_of(instance), of_mesh)
         if mesh is None:
@@ -90,6 +92,7 @@ class InstanceSync:
             "color": tuple(obj.color),
             "object_index": obj.pass_index,
             "light_group": light_group(obj, self._view_layer),
+            "asset": asset_name(obj),
             "attributes": object_attributes(obj, keys),
             **surface_seen_by(instance, self._view_layer),
         }
@@ -133,6 +136,13 @@ class InstanceSync:
 def owner_of(instance):
     """The object that shows an instance: itself, or what instances it."""
     return instance.parent if instance.is_instance else instance.object
+
+
+def asset_name(obj) -> str:
+    """Cryptomatte's assets: a thing and all that hangs on it."""
+    while obj.parent is not None:
+        obj = obj.parent
+    return obj.name
 
 
 def object_random(obj, random_id: int) -> float:

@@ -7,6 +7,7 @@ import bpy
 
 from .. import bridge
 from ..report import RenderRefused
+from . import cycles_settings
 
 MAX_EXPRESSIONS = 64  # of the core
 MAX_NAME_BYTES = 63  # of a pass in Blender
@@ -26,6 +27,37 @@ LIGHT_PASSES = (
     ("use_pass_environment", "Environment", "Env"),
 )
 
+# The same of what the camera sees, with the names of channels and Blender's type of a pass.
+DATA_PASSES = (
+    ("use_pass_z", "Depth", "Depth", "Z", "VALUE"),
+    ("use_pass_mist", "Mist", "Mist", "Z", "VALUE"),
+    ("use_pass_position", "Position", "Position", "XYZ", "VECTOR"),
+    ("use_pass_normal", "Normal", "Normal", "XYZ", "VECTOR"),
+    ("use_pass_uv", "UV", "UV", "UVA", "VECTOR"),
+    ("use_pass_object_index", "Object Index", "IndexOB", "X", "VALUE"),
+    ("use_pass_material_index", "Material Index", "IndexMA", "X", "VALUE"),
+)
+# And those that are switched on in view_layer.janus.
+OWN_DATA_PASSES = (
+    ("pass_debug_sample_count", "Debug Sample Count", "X", "VALUE"),
+    ("denoising_store_passes", "Denoising Normal", "XYZ", "VECTOR"),
+    ("denoising_store_passes", "Denoising Albedo", "RGB", "COLOR"),
+    ("denoising_store_passes", "Denoising Depth", "Z", "VALUE"),
+)
+MATTES = ("Object", "Material", "Asset")
+FALLOFFS = {"QUADRATIC": 2.0, "LINEAR": 1.0, "INVERSE_QUADRATIC": 0.5}  # of mist: powers
+# What a denoiser looks at beside the picture, by Cycles' words for it.
+GUIDES = {
+    "RGB": (),
+    "RGB_ALBEDO": ("Denoising Albedo",),
+    "RGB_ALBEDO_NORMAL": ("Denoising Albedo", "Denoising Normal"),
+}
+# Passes of Blender and of Cycles that Janus does not make.
+UNSUPPORTED = (
+    ("use_pass_vector", "Vector"),
+    ("use_pass_ambient_occlusion", "Ambient Occlusion"),
+)
+
 # What switches it on in view_layer.janus, the name of the pass, its light path expression
 READY_MADE = (
     ("use_pass_direct", "Direct", "L.E"),
@@ -41,17 +73,29 @@ strategy_lengths: dict[str, int] = {}
 
 @dataclass(frozen=True)
 class Pass:
-    """A pass with three channels, all but Combined."""
-
     name: str  # in Blender's render result
     key: str  # for RenderSession.snapshot()
+    channels: str = "RGB"
+    kind: str = "COLOR"  # Blender's type of a pass
+
+
+COMBINED = Pass("Combined", "Combined", "RGBA")
+NOISY_IMAGE = Pass("Noisy Image", "Combined", "RGBA")  # Combined before it is denoised
 
 
 def requested(scene, layer) -> list[Pass]:
     """All passes of a render of the view layer but Combined, in the order of the menus."""
     names = [name for name, _ in expressions(layer)]
     names += strategy_names(strategy_length(scene))
-    return [*light_passes(layer), *(Pass(name, name) for name in names)]
+    noisy = [NOISY_IMAGE] if denoises(scene, layer) else []
+    own = [Pass(name, name) for name in names]
+    return [*data_passes(layer), *light_passes(layer), *mattes(layer), *noisy, *own]
+
+
+def denoises(scene, layer) -> bool:
+    """Is the picture to be denoised? Not that of strategies: their sum must be the picture."""
+    wanted = cycles_settings.value(scene, "use_denoising")
+    return wanted and cycles_settings.layer_denoises(layer) and not strategy_length(scene)
 
 
 def arguments(scene, layer) -> dict:
@@ -72,14 +116,79 @@ def arguments(scene, layer) -> dict:
         "expressions": wanted,
         "light_passes": [found.key for found in light_passes(layer)],
         "strategy_images": strategy_length(scene),
+        **data_arguments(scene, layer),
     }
+
+
+def data_arguments(scene, layer) -> dict:
+    """Those of them that are passes of data."""
+    wanted = [found.key for found in data_passes(layer)]
+    guides = guides_of(scene) if denoises(scene, layer) else ()
+    mist = scene.world and scene.world.mist_settings
+    return {
+        "data_passes": list(dict.fromkeys([*wanted, *guides])),
+        "cryptomatte": matte_kinds(layer),
+        "cryptomatte_levels": matte_levels(layer),
+        "pass_alpha_threshold": layer.pass_alpha_threshold,
+        **({"mist": (mist.start, mist.depth, FALLOFFS[mist.falloff])} if mist else {}),
+    }
+
+
+def guides_of(scene) -> tuple[str, ...]:
+    """The passes that the denoiser looks at."""
+    return GUIDES[cycles_settings.value(scene, "denoising_input_passes")]
+
+
+def renamed() -> bool:
+    """Blender 5.0 has given passes longer names."""
+    return bpy.app.version >= (5, 0, 0)
+
+
+def data_passes(layer) -> list[Pass]:
+    """What the camera sees."""
+    found = [
+        Pass(name if renamed() else key, key, channels, kind)
+        for toggle, name, key, channels, kind in DATA_PASSES
+        if getattr(layer, toggle)
+    ]
+    return found + [
+        Pass(name, name, channels, kind)
+        for toggle, name, channels, kind in OWN_DATA_PASSES
+        if getattr(layer.janus, toggle)
+    ]
+
+
+def matte_kinds(layer) -> list[str]:
+    return [kind for kind in MATTES if getattr(layer, f"use_pass_cryptomatte_{kind.lower()}")]
+
+
+def matte_levels(layer) -> int:
+    """Pictures, each with two ids of a pixel."""
+    return (min(16, layer.pass_cryptomatte_depth) + 1) // 2
+
+
+def mattes(layer) -> list[Pass]:
+    """Their channels have lower case letters: OpenEXR then compresses them without loss."""
+    names = [
+        f"Crypto{kind}{level:02d}"
+        for kind in matte_kinds(layer)
+        for level in range(matte_levels(layer))
+    ]
+    return [Pass(name, name, "rgba") for name in names]
+
+
+def unsupported(layer) -> list[str]:
+    """Names of passes that the view layer asks for and does not get."""
+    found = [name for toggle, name in UNSUPPORTED if getattr(layer, toggle)]
+    if getattr(getattr(layer, "cycles", None), "use_pass_shadow_catcher", False):
+        found.append("Shadow Catcher")
+    return found + [aov.name for aov in layer.aovs if aov.is_valid]
 
 
 def light_passes(layer) -> list[Pass]:
     """Those that Cycles has, too."""
-    renamed = bpy.app.version >= (5, 0, 0)
     return [
-        Pass(name if renamed else key, key)
+        Pass(name if renamed() else key, key)
         for toggle, name, key in LIGHT_PASSES
         if getattr(layer, toggle)
     ]
@@ -112,7 +221,9 @@ def name_problem(layer, item) -> str:
         return "The name of a pass must have no dot, OpenEXR files divide names there"
     if len(item.name.encode()) > MAX_NAME_BYTES:
         return "The name of the pass is too long"
-    taken = {"Combined", *(name for names in LIGHT_PASSES for name in names[1:])}
+    taken = {COMBINED.name, NOISY_IMAGE.name}
+    taken |= {name for names in (*LIGHT_PASSES, *DATA_PASSES) for name in names[1:3]}
+    taken |= {names[1] for names in OWN_DATA_PASSES} | {found.name for found in mattes(layer)}
     taken |= {name for toggle, name, _ in READY_MADE if getattr(layer.janus, toggle)}
     taken |= {f"Combined_{group.name}" for group in layer.lightgroups}
     for other in layer.janus.expressions:

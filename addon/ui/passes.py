@@ -29,6 +29,40 @@ class PassesPanel(JanusPanel):
     bl_parent_id = "JANUS_VIEWLAYER_PT_passes"
 
 
+class JANUS_VIEWLAYER_PT_passes_data(PassesPanel, bpy.types.Panel):
+    bl_label = "Data"
+
+    def draw(self, context):
+        layer = context.view_layer
+        column = self.column().column(heading="Include", align=True)
+        column.prop(layer, "use_pass_combined")
+        for name in ("z", "mist", "position", "normal", "uv"):
+            column.prop(layer, f"use_pass_{name}")
+        column.prop(layer.janus, "denoising_store_passes")
+        column = self.column().column(heading="Indexes", align=True)
+        column.prop(layer, "use_pass_object_index")
+        column.prop(layer, "use_pass_material_index")
+        column = self.column().column(heading="Debug", align=True)
+        column.prop(layer.janus, "pass_debug_sample_count")
+        self.column().prop(layer, "pass_alpha_threshold")
+
+
+class JANUS_VIEWLAYER_PT_passes_cryptomatte(PassesPanel, bpy.types.Panel):
+    bl_label = "Cryptomatte"
+
+    def draw(self, context):
+        layer = context.view_layer
+        column = self.column().column(heading="Include", align=True)
+        for kind in ("object", "material", "asset"):
+            column.prop(layer, f"use_pass_cryptomatte_{kind}", text=kind.capitalize())
+        column = self.column()
+        column.active = any(
+            getattr(layer, f"use_pass_cryptomatte_{kind}")
+            for kind in ("object", "material", "asset")
+        )
+        column.prop(layer, "pass_cryptomatte_depth", text="Levels")
+
+
 class JANUS_VIEWLAYER_PT_passes_light(PassesPanel, bpy.types.Panel):
     bl_label = "Light"
 
@@ -152,7 +186,9 @@ class JANUS_WORLD_PT_lightgroup(JanusPanel, bpy.types.Panel):
 
 CLASSES = (
     JANUS_VIEWLAYER_PT_passes,
+    JANUS_VIEWLAYER_PT_passes_data,
     JANUS_VIEWLAYER_PT_passes_light,
+    JANUS_VIEWLAYER_PT_passes_cryptomatte,
     JANUS_VIEWLAYER_PT_passes_lightgroups,
     JANUS_UL_light_path_expressions,
     JANUS_VIEWLAYER_PT_passes_expressions,

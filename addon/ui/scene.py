@@ -3,7 +3,9 @@
 
 import bpy
 
+from ..render import denoise
 from ..sync.settings import merges
+from .diagnostics import draw_text
 from .engine_panels import JanusPanel
 from .passes import draw_problem
 
@@ -18,6 +20,29 @@ class JANUS_RENDER_PT_sampling(JanusPanel, bpy.types.Panel):
         column.prop(context.scene.janus, "samples")
         column.prop(context.scene.janus, "time_limit")
         column.prop(context.scene.janus, "seed")
+
+
+class JANUS_RENDER_PT_sampling_denoise(JanusPanel, bpy.types.Panel):
+    bl_label = "Denoise"
+    bl_parent_id = "JANUS_RENDER_PT_sampling"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context):
+        self.layout.enabled = not denoise.unavailable()
+        self.layout.prop(context.scene.janus, "use_denoising", text="")
+
+    def draw(self, context):
+        reason = denoise.unavailable()
+        if reason:
+            draw_text(self.layout, reason, "INFO")
+        column = self.column()
+        column.enabled = not reason
+        column.active = context.scene.janus.use_denoising
+        janus = context.scene.janus
+        column.prop(janus, "denoising_input_passes", text="Passes")
+        if janus.denoising_input_passes != "RGB":
+            column.prop(janus, "denoising_prefilter", text="Prefilter")
+        column.prop(janus, "denoising_quality", text="Quality")
 
 
 class JANUS_RENDER_PT_light_paths(JanusPanel, bpy.types.Panel):
@@ -177,8 +202,19 @@ class JANUS_VIEWLAYER_PT_override(JanusPanel, bpy.types.Panel):
         column.prop(layer, "samples")
 
 
+class JANUS_VIEWLAYER_PT_filter(JanusPanel, bpy.types.Panel):
+    bl_label = "Filter"
+    bl_context = "view_layer"
+
+    def draw(self, context):
+        row = self.column().column(heading="Use").row()
+        row.active = context.scene.janus.use_denoising
+        row.prop(context.view_layer.janus, "use_denoising", text="Denoising")
+
+
 CLASSES = (
     JANUS_RENDER_PT_sampling,
+    JANUS_RENDER_PT_sampling_denoise,
     JANUS_RENDER_PT_light_paths,
     JANUS_RENDER_PT_light_paths_max_bounces,
     JANUS_RENDER_PT_light_paths_clamping,
@@ -187,4 +223,5 @@ CLASSES = (
     JANUS_RENDER_PT_film_transparency,
     JANUS_RENDER_PT_performance,
     JANUS_VIEWLAYER_PT_override,
+    JANUS_VIEWLAYER_PT_filter,
 )

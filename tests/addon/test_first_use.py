@@ -18,8 +18,11 @@ OWN = {
     "film_transparent_roughness": 0.25,
     "samples": 3,
     "time_limit": 60.0,
+    "use_denoising": True,
+    "denoising_quality": "FAST",
 }
 OF_VIEWPORTS = {"preview_samples": 77}
+NOT_FOR_THE_CORE = {"use_denoising", "denoising_quality"}  # see test_denoised_render.py
 CORE_NAMES = {
     "diffuse_bounces": "max_diffuse_bounces",
     "glossy_bounces": "max_glossy_bounces",
@@ -38,9 +41,14 @@ def cycles(scene):
 
 
 def rendered(fake_core):
-    """What the core was told, by the names of scene.janus."""
+    """What the core was told, by the names of scene.janus, and what it need not know."""
     bpy.ops.render.render()
-    return {name: getattr(fake_core.settings, CORE_NAMES.get(name, name)) for name in OWN}
+    scene, value = bpy.context.scene, part("sync.cycles_settings").value
+    told = {
+        name: getattr(fake_core.settings, CORE_NAMES.get(name, name))
+        for name in OWN.keys() - NOT_FOR_THE_CORE
+    }
+    return told | {name: value(scene, name) for name in NOT_FOR_THE_CORE}
 
 
 def values(scene):

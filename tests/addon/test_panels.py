@@ -203,3 +203,30 @@ def test_no_panel_hides_what_blender_keeps_in_it(addon):
     assert len(ours) > 10
     for cls in ours:
         assert not kept & set(vars(cls)), cls.__name__
+
+
+def test_denoising_is_greyed_with_the_reason(scene, monkeypatch):
+    """The layout is one for all, so that what the panel sets in its parts is seen."""
+    layout = Layout()
+    layout.column = layout.row = lambda **_: layout
+    panel = bpy.types.JANUS_RENDER_PT_sampling_denoise
+    assert panel.bl_parent_id == "JANUS_RENDER_PT_sampling"
+    stub = SimpleNamespace(layout=layout, column=lambda: layout)
+    context = SimpleNamespace(scene=scene)
+    for reason, lines in ((None, []), ("No library.", [("No library.", "INFO", False)])):
+        monkeypatch.setattr(part("render.denoise"), "unavailable", lambda reason=reason: reason)
+        for use in (False, True):
+            scene.janus.use_denoising = use
+            layout.drawn.clear()
+            panel.draw_header(stub, context)
+            assert layout.drawn == ["use_denoising"] and layout.enabled is (reason is None)
+            layout.drawn.clear()
+            layout.enabled = None
+            panel.draw(stub, context)
+            assert layout.drawn == [*lines, "denoising_quality"]
+            assert layout.enabled is (reason is None) and layout.active is use
+
+
+def test_a_view_layer_can_leave_denoising_out(scene):
+    assert draw("JANUS_VIEWLAYER_PT_filter") == ["use_denoising"]
+    assert "use_denoising" in scene.view_layers[0].janus.bl_rna.properties
