@@ -33,6 +33,15 @@ namespace {
 using ChannelNames = std::array<const char*, 4>;
 constexpr ChannelNames kRgba = {"R", "G", "B", "A"};
 constexpr ChannelNames kGrey = {"Y", nullptr, nullptr, "A"};
+// The channels of layers that are read, the longer ones first: colours, Cryptomatte, data.
+constexpr ChannelNames kLayerNames[] = {kRgba,
+                                        {"R", "G", "B", nullptr},
+                                        {"r", "g", "b", "a"},
+                                        {"X", "Y", "Z", "W"},
+                                        {"X", "Y", "Z", nullptr},
+                                        {"U", "V", "A", nullptr},
+                                        {"Z", nullptr, nullptr, nullptr},
+                                        {"X", nullptr, nullptr, nullptr}};
 
 // --- Writing
 // --------------------------------------------------------------------------------------
@@ -322,10 +331,15 @@ Metadata read_metadata(const Imf::Header& header) {
   return metadata;
 }
 
-// What has channels NAME.R, NAME.G and NAME.B (R, G and B: the empty name), with room for the
-// pixels.
-std::vector<ExrLayer> find_layers(const std::string& path, const Imf::Header& header) {
-  std::vector<ExrLayer> layers;
+struct FoundLayer {
+  ExrLayer layer;
+  const ChannelNames& names;
+};
+
+// What has channels NAME.R, NAME.G and NAME.B, or others of kLayerNames (R, G and B: the empty
+// name), with room for the pixels.
+std::vector<FoundLayer> find_layers(const std::string& path, const Imf::Header& header) {
+  std::vector<FoundLayer> layers;
   const Imf::ChannelList& channels = header.channels();
   for (auto it = channels.begin(); it != channels.end(); ++it) {
     const std::string channel = it.name();
@@ -334,8 +348,14 @@ std::vector<ExrLayer> find_layers(const std::string& path, const Imf::Header& he
     const auto has = [&](const char* letter) {
       return channels.findChannel(channel_name(name, letter)) != nullptr;
     };
-    if (channel == channel_name(name, "R") && has("G") && has("B")) {
-      layers.push_back({name, make_image(path, header.dataWindow(), has("A") ? 4 : 3)});
+    const auto* names = std::ranges::find_if(kLayerNames, [&](const ChannelNames& candidate) {
+      return std::ranges::all_of(candidate, [&](const char* c) { return !c || has(c); });
+    });
+    // Each once, where its first channel comes by.
+    if (names != std::end(kLayerNames) && channel == channel_name(name, (*names)[0])) {
+      const auto count = std::ranges::count_if(*names, [](const char* c) { return c != nullptr; });
+      layers.push_back(
+          {{name, make_image(path, header.dataWindow(), static_cast<int>(count))}, *names});
     }
   }
   return layers;
@@ -386,16 +406,16 @@ ExrLayers read_exr_layers(const std::string& path) {
     for (int number = 0; number < file.parts(); ++number) {
       const Imf::Header& header = file.header(number);
       const Imath::Box2i window = header.dataWindow();
-      std::vector<ExrLayer> layers = find_layers(path, header);
+      std::vector<FoundLayer> layers = find_layers(path, header);
       Imf::FrameBuffer buffer;
-      for (ExrLayer& layer : layers) {
-        insert_slices(buffer, layer.image, layer.name, kRgba, window.min.x, window.min.y);
+      for (auto& [layer, names] : layers) {
+        insert_slices(buffer, layer.image, layer.name, names, window.min.x, window.min.y);
       }
       refuse_subsampling(path, header.channels(), buffer);
       Imf::InputPart part(file, number);
       part.setFrameBuffer(buffer);
       part.readPixels(window.min.y, window.max.y);
-      for (ExrLayer& layer : layers) {
+      for (auto& [layer, names] : layers) {
         flip(layer.image);
         result.layers.push_back(std::move(layer));
       }

@@ -40,11 +40,12 @@ struct ExrFile {
 ExrFile read_exr(const std::string& path);
 
 struct ExrLayers {
-  std::vector<ExrLayer> layers;  // of 3 channels, or 4 where there is an A; by name in each part
+  std::vector<ExrLayer> layers;  // by name in each part
   Metadata metadata;             // the string attributes of the first part
 };
 
-// Reads everything that has channels R, G and B, in all parts of the file.
+// Reads everything that has channels R, G and B, perhaps A; r, g, b and a; X, Y, Z, perhaps W;
+// U, V and A; or Z or X alone; in all parts of the file. In this order, whatever the file's.
 ExrLayers read_exr_layers(const std::string& path);
 
 }  // namespace janus

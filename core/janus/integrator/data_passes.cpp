@@ -23,7 +23,7 @@ class DataPasses final : public PassIntegrator {
         data_(data),
         film_(film),
         choice_(film.choice()),
-        to_camera_(glm::inverse(context.scene.camera.transform)),
+        view_(view_of(context.scene.camera)),
         eye_(context.scene.camera.transform[3]),
         forward_(-vec3(context.scene.camera.transform[2])) {
     for (const std::string& name : context.scene.surfaces.material_names()) {
@@ -68,6 +68,9 @@ class DataPasses final : public PassIntegrator {
       ++counters.camera_rays;
       const auto hit = context_.scene.intersect(ray, RayType::Camera);
       if (!hit) {
+        if (!done) {
+          see_nothing(sample);
+        }
         return;
       }
       const vec3 wo = -ray.direction;
@@ -76,7 +79,7 @@ class DataPasses final : public PassIntegrator {
         return;
       }
       const float alpha = 1.0f - average(shading.transparency);
-      if (crossings == 0) {
+      if (!done) {  // what is looked through leaves no trace here
         see_first(*hit, sample);
       }
       if (!done && alpha >= data_.alpha_threshold) {
@@ -99,16 +102,22 @@ class DataPasses final : public PassIntegrator {
     const bool panoramic = context_.scene.camera.type == CameraType::Equirectangular;
     const vec3 p = hit.p;
     sample.set(DataPass::Depth,
-               panoramic ? glm::length(p - eye_) : -(to_camera_ * vec4(p, 1.0f)).z);
+               panoramic ? glm::length(p - eye_) : (view_.from_world * vec4(p, 1.0f)).z);
     sample.set(DataPass::Position, p);
     sample.set(DataPass::ObjectIndex, context_.scene.instances[hit.instance].object_index);
     sample.set(DataPass::MaterialIndex, context_.scene.surfaces.material_index(hit.material));
   }
 
+  static void see_nothing(DataSample& sample) {
+    for (const DataPass pass : {DataPass::Depth, DataPass::Position, DataPass::ObjectIndex,
+                                DataPass::MaterialIndex}) {
+      sample.set(pass, vec3(0.0f));
+    }
+  }
+
   void see_surface(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo,
                    DataSample& sample) const {
-    const vec3 ns = dot(wo, hit.ng) < 0.0f ? -hit.ns : hit.ns;
-    sample.set(DataPass::Normal, average_normal(bsdf, ns, wo));
+    sample.set(DataPass::Normal, average_normal(bsdf, facing(hit.ns, hit, wo), wo));
     const Mesh& mesh = *context_.scene.meshes[context_.scene.instances[hit.instance].mesh];
     if (const AttributeDesc* uv = mesh.attribute("uv:"); uv && choice_.wants(DataPass::Uv)) {
       ShadingPoint point{};
@@ -130,6 +139,10 @@ class DataPasses final : public PassIntegrator {
     }
   }
 
+  static vec3 facing(vec3 n, const SurfaceInteraction& hit, vec3 wo) {
+    return dot(wo, hit.ng) < 0.0f ? -n : n;
+  }
+
   // As Cycles measures it for mist.
   float distance(vec3 p) const {
     return context_.scene.camera.type == CameraType::Orthographic
@@ -143,7 +156,6 @@ class DataPasses final : public PassIntegrator {
                          Counters& counters) const {
     Rgb share(1.0f);
     RayType type = RayType::Camera;
-    float before = 0.0f;  // of the segment, from where it began to where `ray` does
     for (int steps = 1; steps < settings_.walk.max_edges + settings_.walk.max_crossings; ++steps) {
       ++counters.camera_rays;
       const auto hit = context_.scene.intersect(ray, type);
@@ -154,14 +166,15 @@ class DataPasses final : public PassIntegrator {
       const vec3 wo = -ray.direction;
       const ShadingResult shading = context_.scene.shade(*hit, wo);
       const BsdfView bsdf = shading.bsdf.view(hit->ng, hit->ns);
-      const float length = before + glm::length(hit->p - ray.origin);
+      const float length = glm::length(hit->p - ray.origin);
       add(sample, DataPass::DenoisingDepth, vec3(average(share) * length));
       add(sample, DataPass::DenoisingAlbedo, share * shading.emission);
-      const SurfaceFeatures found = surface_features(bsdf, shading.transparency, wo);
+      const SurfaceFeatures found =
+          surface_features(bsdf, shading.transparency, facing(hit->ns, *hit, wo), wo);
       if (found.rough) {
         add(sample, DataPass::DenoisingAlbedo, share * found.albedo);
-        const vec3 n(to_camera_ * vec4(found.normal, 0.0f));
-        sample.set(DataPass::DenoisingNormal, vec3(n.x, n.y, -n.z));  // Cycles looks along +z
+        sample.set(DataPass::DenoisingNormal,
+                   vec3(view_.from_world * vec4(found.normal, 0.0f)));
         return;
       }
       share *= found.smooth;
@@ -169,7 +182,6 @@ class DataPasses final : public PassIntegrator {
       const float through = average(shading.transparency);
       const float pass = through > 0.0f ? through / (through + shading.bsdf.albedo()) : 0.0f;
       if (sampler.next_1d() < pass) {
-        before = length;
         ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, ray.direction), ray.direction};
         continue;
       }
@@ -179,7 +191,6 @@ class DataPasses final : public PassIntegrator {
         return;
       }
       type = next->transmitted ? RayType::Transmission : RayType::Glossy;
-      before = 0.0f;
       ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, next->direction), next->direction};
     }
   }
@@ -205,7 +216,7 @@ class DataPasses final : public PassIntegrator {
   DataSettings data_;
   DataFilm& film_;
   DataChoice choice_;
-  mat4 to_camera_;
+  CameraView view_;
   vec3 eye_, forward_;
   std::vector<float> material_ids_, object_ids_, asset_ids_;
 };

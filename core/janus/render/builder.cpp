@@ -11,8 +11,6 @@
 
 namespace janus {
 
-namespace {
-
 // The camera looks along +z in Cycles; panoramas look along +x, with +z up.
 CameraView view_of(const CameraDesc& camera) {
   mat4 turn(1.0f);
@@ -26,6 +24,8 @@ CameraView view_of(const CameraDesc& camera) {
   return {camera.type,   from_world, glm::inverse(from_world), camera.left, camera.right,
           camera.bottom, camera.top};
 }
+
+namespace {
 
 // A material's programs in Surfaces, by kRays.
 using ProgramsByRay = std::array<uint32_t, std::size(kRays)>;

@@ -16,6 +16,9 @@
 
 namespace janus {
 
+// Cycles' camera space.
+CameraView view_of(const CameraDesc& camera);
+
 // A committed scene: immutable, shared by any number of threads and sessions. Made by
 // SceneBuilder::commit().
 class Scene {

@@ -31,10 +31,11 @@ vec3 average_normal(const BsdfView& bsdf, vec3 ns, vec3 wo) {
   return length > 0.0f ? sum / length : ns;
 }
 
-SurfaceFeatures surface_features(const BsdfView& bsdf, Rgb transparency, vec3 wo) {
+SurfaceFeatures surface_features(const BsdfView& bsdf, Rgb transparency, vec3 ns, vec3 wo) {
   SurfaceFeatures features;
   features.smooth = transparency;
   float sum = std::abs(average(transparency)), rough = 0.0f;
+  features.normal = sum * ns;
   for (const Lobe& lobe : bsdf.lobes()) {
     const float weight = std::abs(average(lobe.weight));
     features.normal += weight * facing_normal(lobe, bsdf.ng(), wo);

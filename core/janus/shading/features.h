@@ -19,7 +19,7 @@ struct SurfaceFeatures {
   Rgb smooth = Rgb(0.0f);    // of the others
   bool rough = true;         // shall its albedo and normal be taken?
 };
-// `transparency`: the share of the light that passes straight through.
-SurfaceFeatures surface_features(const BsdfView& bsdf, Rgb transparency, vec3 wo);
+// `transparency`: the share of the light that passes straight through; `ns`: as above.
+SurfaceFeatures surface_features(const BsdfView& bsdf, Rgb transparency, vec3 ns, vec3 wo);
 
 }  // namespace janus

@@ -81,9 +81,10 @@ def read(path: str | os.PathLike[str]) -> tuple[npt.NDArray[np.float32], dict[st
 def read_layers(
     path: str | os.PathLike[str],
 ) -> tuple[dict[str, npt.NDArray[np.float32]], dict[str, str]]:
-    """(pictures by name, metadata) of a file: all that has channels R, G and B, whoever wrote it.
+    """(pictures by name, metadata) of a file, whoever wrote it: all that has channels RGB, RGBA,
+    rgba (Cryptomatte), XYZ, XYZW, UVA, Z or X.
 
-    Each is float32[height, width, 3], or 4 with alpha, bottom row first. Plain R, G, B is
+    Each is float32[height, width, channels], bottom row first, the channels in that order. Plain R, G, B is
     "Combined"; what Blender writes is called LAYER.PASS. Raises IoError, which names the file.
     """
     require()

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/film/data_film.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+namespace janus::test {
+namespace {
+
+// Of the reference implementation of MurmurHash3_x86_32, seed 0.
+TEST(Cryptomatte, HashesNames) {
+  EXPECT_EQ(cryptomatte_hash(""), 0u);
+  EXPECT_EQ(cryptomatte_hash("hello"), 0x248bfa47u);
+  EXPECT_EQ(cryptomatte_hash("hello, world"), 0x149bbb7fu);
+  EXPECT_EQ(cryptomatte_hash("The quick brown fox jumps over the lazy dog"), 0x2e4ff723u);
+  EXPECT_EQ(cryptomatte_hex(0x2e4ffu), "0002e4ff");
+}
+
+TEST(Cryptomatte, IdsAreNormalNumbers) {
+  for (const uint32_t hash : {0u, 1u, 0x007fffffu, 0x80000001u, 0x7f800000u, 0xff812345u}) {
+    EXPECT_TRUE(std::isnormal(cryptomatte_id(hash))) << hash;
+    EXPECT_EQ(std::bit_cast<uint32_t>(cryptomatte_id(hash)), hash ^ 1u << 23);
+  }
+  EXPECT_EQ(std::bit_cast<uint32_t>(cryptomatte_id(0x248bfa47u)), 0x248bfa47u);
+}
+
+DataChoice choice() {
+  DataChoice c;
+  for (const DataPass pass : {DataPass::Depth, DataPass::Normal, DataPass::Mist, DataPass::Uv,
+                              DataPass::SampleCount}) {
+    c.passes[static_cast<size_t>(pass)] = true;
+  }
+  c.mattes[static_cast<size_t>(MatteKind::Material)] = true;
+  c.matte_levels = 2;
+  return c;
+}
+
+DataSample sample(float depth, vec3 normal, std::vector<std::pair<float, float>> materials) {
+  DataSample s;
+  s.set(DataPass::Depth, depth);
+  s.set(DataPass::Normal, normal);
+  s.set(DataPass::Mist, 0.25f * depth);
+  for (const auto& [id, weight] : materials) {
+    s.mattes.push_back({{-1.0f, id, -1.0f}, weight});
+  }
+  return s;
+}
+
+TEST(DataFilm, HasThePassesThatWereAskedFor) {
+  const std::vector<std::string> names = {"Depth", "Normal", "UV", "Mist", "Debug Sample Count",
+                                          "CryptoMaterial00", "CryptoMaterial01"};
+  EXPECT_EQ(choice().names(), names);
+  EXPECT_FALSE(DataChoice().any());
+  DataFilm film({0, 0, 3, 2}, choice());
+  EXPECT_EQ(film.develop("UV").channels, 3);
+  EXPECT_EQ(film.develop("CryptoMaterial01").channels, 4);
+  EXPECT_THROW(film.develop("Position"), std::exception);
+  EXPECT_THROW(film.develop("CryptoObject00"), std::exception);
+  EXPECT_EQ(DataFilm::bytes({0, 0, 3, 2}, choice()), 6 * sizeof(float) * (1 + 1 + 3 + 3 + 1 + 1 + 8));
+}
+
+// One pixel with two samples, one with one, one with none.
+TEST(DataFilm, KeepsFirstSamplesAndMeans) {
+  DataFilm film({5, 5, 8, 6}, choice());
+  const DataSample first[] = {sample(2, {0, 0, 1}, {}), sample(3, {1, 0, 0}, {})};
+  film.add(0, first);
+  const DataSample second[] = {sample(1, {0, 1, 0}, {})};
+  film.add(0, second);
+  EXPECT_EQ(film.develop("Depth").pixels, (std::vector<float>{2, 3, 1e10f}));
+  EXPECT_EQ(film.develop("Normal").pixels, (std::vector<float>{0, .5f, .5f, 1, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(film.develop("Mist").pixels, (std::vector<float>{1 - .375f, .25f, 1}));
+  EXPECT_EQ(film.develop("Debug Sample Count").pixels, (std::vector<float>{2, 1, 0}));
+}
+
+// Ids by their coverage, two in a picture; what finds no place counts for the last.
+TEST(DataFilm, SortsMattesByCoverage) {
+  DataFilm film({0, 0, 1, 1}, choice());
+  const DataSample samples[] = {
+      sample(1, {}, {{7, .25f}, {8, .5f}}), sample(1, {}, {{9, 1}}),
+      sample(1, {}, {{8, .5f}, {10, .25f}, {11, .125f}}), sample(1, {}, {})};
+  for (const DataSample& s : samples) {
+    film.add(0, {&s, 1});
+  }
+  const Image best = film.develop("CryptoMaterial00"), rest = film.develop("CryptoMaterial01");
+  EXPECT_EQ(best.pixels, (std::vector<float>{8, .25f, 9, .25f}));
+  EXPECT_EQ(rest.pixels, (std::vector<float>{10, .375f / 4, 7, .0625f}));
+}
+
+}  // namespace
+}  // namespace janus::test
