@@ -6,6 +6,11 @@ from types import SimpleNamespace
 import numpy as np
 
 
+# Of passes that do not have three.
+ONE = ("Depth", "Mist", "IndexOB", "IndexMA", "Denoising Depth", "Debug Sample Count")
+CHANNELS = dict.fromkeys(ONE, 1)
+
+
 class Recorder:
     """Has the methods of SceneBuilder and keeps their arguments, arrays copied."""
 
@@ -94,6 +99,10 @@ class FakeCore:
         pairs = text.split()
         return "" if all("," in pair for pair in pairs) else f"'{text}' is no list of pairs s,t"
 
+    @staticmethod
+    def cryptomatte_hash(name):
+        return f"{len(name):08x}"
+
     def SceneBuilder(self):  # noqa: N802
         self.builder = Recorder(self.diagnostics)
         return self.builder
@@ -147,14 +156,22 @@ class FakeSession:
         for edges in range(1, settings.strategy_images + 1):
             for s in range(edges + 1):
                 names += [f"s{s} t{edges + 1 - s} {kind}" for kind in ("weighted", "alone")]
-        return names + ["longer weighted"] * (settings.strategy_images > 0)
+        names += ["longer weighted"] * (settings.strategy_images > 0)
+        names += settings.data_passes
+        for kind in settings.cryptomatte:
+            names += [f"Crypto{kind}{level:02d}" for level in range(settings.cryptomatte_levels)]
+        return names
+
+    def manifest(self, kind):
+        return {f"any {kind}": "01234567"}
 
     def snapshot(self, name):
         """Combined has the colour of the core, pass number n (from 1) has n in each channel."""
         number = self.passes().index(name)
         self.snapshots += 1
         x0, y0, x1, y1 = self.settings.crop or (0, 0, self.settings.width, self.settings.height)
-        pixels = np.empty((y1 - y0, x1 - x0, 3 if number else 4), dtype=np.float32)
+        channels = 4 if not number or name.startswith("Crypto") else CHANNELS.get(name, 3)
+        pixels = np.empty((y1 - y0, x1 - x0, channels), dtype=np.float32)
         pixels[:] = (number or self.core.color) if self.samples else 0.0
         return pixels
 

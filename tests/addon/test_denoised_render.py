@@ -156,15 +156,20 @@ def test_the_noisy_picture_is_shown_first(scene, fake_core, calls, monkeypatch):
     assert events == ["show", "Denoising", "work", "show"]
 
 
-def test_guides_are_taken_where_the_core_has_them(scene, fake_core, calls, monkeypatch):
+def test_guides_are_those_that_were_chosen(scene, fake_core, calls):
     scene.janus.use_denoising = True
     scene.render.threads_mode, scene.render.threads = "FIXED", 3
+    scene.janus.denoising_prefilter = "FAST"
     bpy.ops.render.render()
-    assert calls == [{"quality": "HIGH", "threads": 3}] and messages() == []
-    known = [*fake_core.sessions[-1].passes(), "Denoising Albedo", "Denoising Normal"]
-    monkeypatch.setattr("fake_core.FakeSession.passes", lambda self: known)
+    assert np.all(calls[0]["albedo"] == 1.0) and np.all(calls[0]["normal"] == 2.0)
+    assert (calls[0]["quality"], calls[0]["prefilter"]) == ("HIGH", "FAST")
+    assert calls[0]["threads"] == 3 and messages() == []
+    scene.janus.denoising_input_passes = "RGB_ALBEDO"
     bpy.ops.render.render()
-    assert np.all(calls[1]["albedo"] == 1.0) and np.all(calls[1]["normal"] == 2.0)
+    assert "albedo" in calls[1] and "normal" not in calls[1]
+    scene.janus.denoising_input_passes = "RGB"
+    bpy.ops.render.render()
+    assert "albedo" not in calls[2] and fake_core.settings.data_passes == []
 
 
 def test_a_render_that_was_stopped_is_left_as_it_is(scene, fake_core, calls, monkeypatch):

@@ -76,6 +76,10 @@ def test_settings_reach_the_core(scene, fake_core):
     janus.film_transparent_roughness = 0.25
     bpy.ops.render.render()
     assert vars(fake_core.settings) == {
+        "data_passes": [],
+        "cryptomatte": [],
+        "cryptomatte_levels": 3,
+        "pass_alpha_threshold": 0.5,
         "width": 16,
         "height": 10,
         "crop": None,

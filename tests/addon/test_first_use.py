@@ -20,9 +20,11 @@ OWN = {
     "time_limit": 60.0,
     "use_denoising": True,
     "denoising_quality": "FAST",
+    "denoising_input_passes": "RGB_ALBEDO",
+    "denoising_prefilter": "FAST",
 }
 OF_VIEWPORTS = {"preview_samples": 77}
-NOT_FOR_THE_CORE = {"use_denoising", "denoising_quality"}  # see test_denoised_render.py
+NOT_FOR_THE_CORE = {name for name in OWN if "denoising" in name}  # see test_denoised_render.py
 CORE_NAMES = {
     "diffuse_bounces": "max_diffuse_bounces",
     "glossy_bounces": "max_glossy_bounces",

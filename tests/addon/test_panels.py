@@ -223,7 +223,8 @@ def test_denoising_is_greyed_with_the_reason(scene, monkeypatch):
             layout.drawn.clear()
             layout.enabled = None
             panel.draw(stub, context)
-            assert layout.drawn == [*lines, "denoising_quality"]
+            names = ("input_passes", "prefilter", "quality")
+            assert layout.drawn == [*lines, *(f"denoising_{name}" for name in names)]
             assert layout.enabled is (reason is None) and layout.active is use
 
 
