@@ -38,8 +38,9 @@ inline void check_signals() {
   }
 }
 
-// Calls wait(seconds), which tells whether what it waits for has come, without the GIL and in slices
-// short enough for Ctrl-C, until it has, or `seconds` have passed: true or false. Needs the GIL.
+// Calls wait(seconds), which tells whether what it waits for has come, without the GIL and in
+// slices short enough for Ctrl-C, until it has, or `seconds` have passed: true or false. Needs the
+// GIL.
 template <class Wait>
 bool wait_slices(Wait&& wait, double seconds) {
   constexpr double kSlice = 0.1;

@@ -256,8 +256,8 @@ void bind_scene(py::module_& m) {
              const py::object& transform, std::vector<std::optional<std::string>> materials,
              bool camera, bool diffuse, bool glossy, bool transmission, bool shadow, bool holdout,
              const std::array<float, 4>& color, float object_index, float random,
-             const std::map<std::string, std::array<float, 4>>& attributes,
-             std::string light_group, std::string asset) {
+             const std::map<std::string, std::array<float, 4>>& attributes, std::string light_group,
+             std::string asset) {
             InstanceDesc desc{std::move(name),
                               std::move(mesh),
                               to_matrix(key, transform),
@@ -324,10 +324,11 @@ void bind_scene(py::module_& m) {
           "longitudes and latitudes in radians. aperture_radius in metres; 0: no depth of field. "
           "pixel_size: height of a pixel in units of the window, for bump; 0: a thousandth of it.")
       .def("remove", &SceneBuilder::remove, "key"_a, "Forgets a key; unknown keys are ignored.")
-      .def("commit", &commit, "poll"_a = py::none(),
-           "Builds the immutable Scene without holding the GIL. poll() is called about every 50 ms "
-           "in this thread; True cancels. Raises SceneError, Cancelled, or what poll raised. Meshes "
-           "set before the last commit are shared with its Scene, if that is still in use.")
+      .def(
+          "commit", &commit, "poll"_a = py::none(),
+          "Builds the immutable Scene without holding the GIL. poll() is called about every 50 ms "
+          "in this thread; True cancels. Raises SceneError, Cancelled, or what poll raised. Meshes "
+          "set before the last commit are shared with its Scene, if that is still in use.")
       .def(
           "start_commit",
           [](const SceneBuilder& self) { return std::make_unique<CommitTask>(self); },

@@ -26,9 +26,8 @@ constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Wa
                                                  {"cancelled", Progress::State::Cancelled},
                                                  {"failed", Progress::State::Failed}};
 
-constexpr EnumName<MatteKind> kMatteKindNames[] = {{"Object", MatteKind::Object},
-                                                   {"Material", MatteKind::Material},
-                                                   {"Asset", MatteKind::Asset}};
+constexpr EnumName<MatteKind> kMatteKindNames[] = {
+    {"Object", MatteKind::Object}, {"Material", MatteKind::Material}, {"Asset", MatteKind::Asset}};
 
 // --- Settings
 // -------------------------------------------------------------------------------------
@@ -89,22 +88,19 @@ DataChoice to_data(const std::vector<std::string>& passes, const std::vector<std
   return choice;
 }
 
-RenderSettings make_settings(int width, int height, const Crop& crop, int samples, double seconds,
-                             uint32_t seed, int threads, int max_bounces, int max_diffuse_bounces,
-                             int max_glossy_bounces, int max_transmission_bounces,
-                             int transparent_max_bounces, float clamp_direct, float clamp_indirect,
-                             const std::string& integrator, const std::string& filter,
-                             float filter_width, float light_paths, float connections,
-                             float merge_radius, bool adaptive_counts, const std::string& heuristic,
-                             float film_exposure, bool film_transparent,
-                             bool film_transparent_glass, float film_transparent_roughness,
-                             bool roulette, bool check_weights, bool next_event,
-                             const std::string& connection_mode, const std::string& strategies,
-                             const Expressions& expressions,
-                             const std::vector<std::string>& light_passes, int strategy_images,
-                             const std::vector<std::string>& data_passes,
-                             const std::vector<std::string>& cryptomatte, int cryptomatte_levels,
-                             float pass_alpha_threshold, const std::array<float, 3>& mist) {
+RenderSettings make_settings(
+    int width, int height, const Crop& crop, int samples, double seconds, uint32_t seed,
+    int threads, int max_bounces, int max_diffuse_bounces, int max_glossy_bounces,
+    int max_transmission_bounces, int transparent_max_bounces, float clamp_direct,
+    float clamp_indirect, const std::string& integrator, const std::string& filter,
+    float filter_width, float light_paths, float connections, float merge_radius,
+    bool adaptive_counts, const std::string& heuristic, float film_exposure, bool film_transparent,
+    bool film_transparent_glass, float film_transparent_roughness, bool roulette,
+    bool check_weights, bool next_event, const std::string& connection_mode,
+    const std::string& strategies, const Expressions& expressions,
+    const std::vector<std::string>& light_passes, int strategy_images,
+    const std::vector<std::string>& data_passes, const std::vector<std::string>& cryptomatte,
+    int cryptomatte_levels, float pass_alpha_threshold, const std::array<float, 3>& mist) {
   RenderSettings s;
   s.data = to_data(data_passes, cryptomatte, cryptomatte_levels);
   s.data_settings = {{mist[0], mist[1], mist[2]}, pass_alpha_threshold};
@@ -230,7 +226,8 @@ void bind_settings(py::module_& m) {
       "light_passes: Cycles' passes by Blender's names, DiffDir, DiffInd, DiffCol, the same of "
       "Gloss and Trans, Emit and Env; strategy_images: bdpt makes passes for each strategy of "
       "paths of up to so many edges; "
-      "data_passes: Depth, Position, IndexOB, IndexMA (of the first sample of a pixel), Normal, UV, "
+      "data_passes: Depth, Position, IndexOB, IndexMA (of the first sample of a pixel), Normal, "
+      "UV, "
       "Mist, Denoising Albedo, Denoising Normal, Denoising Depth, Debug Sample Count; cryptomatte: "
       "Object, Material, Asset, each in so many cryptomatte_levels (pictures of two ids); "
       "pass_alpha_threshold: surfaces with less alpha are looked through; mist: start and depth in "

@@ -5,7 +5,6 @@ from types import SimpleNamespace
 
 import numpy as np
 
-
 # Of passes that do not have three.
 ONE = ("Depth", "Mist", "IndexOB", "IndexMA", "Denoising Depth", "Debug Sample Count")
 CHANNELS = dict.fromkeys(ONE, 1)

@@ -168,7 +168,7 @@ struct Accel::Impl {
   std::shared_ptr<Device> device;
   View everything;
   std::array<View, kRayTypes> own;  // of a type that is the first to meet just these instances
-  std::array<const View*, kRayTypes> view;  // by type
+  std::array<const View*, kRayTypes> view;                         // by type
   std::map<const Mesh*, std::shared_ptr<const MeshAccel>> bottom;  // of those that are needed
 
   ~Impl() {

@@ -56,8 +56,7 @@ void check_attributes(const std::string& key, const MeshDesc& desc, size_t corne
 
 }  // namespace
 
-Mesh::Mesh(const std::string& key, MeshDesc&& desc)
-    : name_(desc.name.empty() ? key : desc.name) {
+Mesh::Mesh(const std::string& key, MeshDesc&& desc) : name_(desc.name.empty() ? key : desc.name) {
   const size_t corners =
       desc.corner_vertices.empty() ? desc.positions.size() : desc.corner_vertices.size();
   if (!desc.corner_normals.empty() && desc.corner_normals.size() != corners) {

@@ -5,8 +5,7 @@
 
 namespace janus {
 
-uint32_t Surfaces::add_program(Program program, const std::string& material,
-                               float material_index) {
+uint32_t Surfaces::add_program(Program program, const std::string& material, float material_index) {
   any_delta_ = any_delta_ || !program.constant() ||
                std::any_of(program.lobes.begin(), program.lobes.end(), is_delta);
   programs_.push_back(std::make_unique<const Program>(std::move(program)));
@@ -45,8 +44,7 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
     };
     std::transform(program.attributes.begin(), program.attributes.end(), slots.get(), find);
     entry->second = static_cast<uint32_t>(surfaces_.size());
-    surfaces_.push_back(
-        {&program, slots.get(), material_index(surface), material(surface)});
+    surfaces_.push_back({&program, slots.get(), material_index(surface), material(surface)});
     attributes_.push_back(std::move(slots));
   }
   return entry->second;

@@ -15,12 +15,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "janus/util/error.h"
@@ -29,19 +29,10 @@ namespace janus {
 
 namespace {
 
-// The channel of the file for each component of a pixel; nullptr: none.
-using ChannelNames = std::array<const char*, 4>;
-constexpr ChannelNames kRgba = {"R", "G", "B", "A"};
-constexpr ChannelNames kGrey = {"Y", nullptr, nullptr, "A"};
-// The channels of layers that are read, the longer ones first: colours, Cryptomatte, data.
-constexpr ChannelNames kLayerNames[] = {kRgba,
-                                        {"R", "G", "B", nullptr},
-                                        {"r", "g", "b", "a"},
-                                        {"X", "Y", "Z", "W"},
-                                        {"X", "Y", "Z", nullptr},
-                                        {"U", "V", "A", nullptr},
-                                        {"Z", nullptr, nullptr, nullptr},
-                                        {"X", nullptr, nullptr, nullptr}};
+using ChannelNames = std::string_view;  // a letter for each component of a pixel; a dot: none
+constexpr ChannelNames kRgba = "RGBA", kGrey = "Y..A";
+// Of the layers that are read, the longer ones first: colours, Cryptomatte, data.
+constexpr ChannelNames kLayerNames[] = {kRgba, "RGB", "rgba", "XYZW", "XYZ", "UVA", "Z", "X"};
 
 // --- Writing
 // --------------------------------------------------------------------------------------
@@ -119,8 +110,8 @@ class OutputStream final : public Imf::OStream {
   uint64_t position_ = 0, size_ = 0;
 };
 
-std::string channel_name(const std::string& layer, const char* channel) {
-  return layer.empty() ? channel : layer + "." + channel;
+std::string channel_name(const std::string& layer, char channel) {
+  return (layer.empty() ? layer : layer + ".") + channel;
 }
 
 Imf::Header make_header(const std::string& path, const std::vector<ExrLayer>& layers,
@@ -165,11 +156,11 @@ void flip(Image& image) {
 
 // (x0, y0): where the file's coordinates of the pixels start.
 void insert_slices(Imf::FrameBuffer& buffer, Image& image, const std::string& layer,
-                   const ChannelNames& names, int x0, int y0) {
+                   ChannelNames names, int x0, int y0) {
   const size_t pixel = sizeof(float) * image.channels, row = pixel * image.width;
   const ptrdiff_t start = x0 * static_cast<ptrdiff_t>(pixel) + y0 * static_cast<ptrdiff_t>(row);
   for (int c = 0; c < image.channels; ++c) {
-    if (names[c]) {
+    if (names[c] != '.') {
       char* base = reinterpret_cast<char*>(image.pixels.data() + c) - start;
       buffer.insert(channel_name(layer, names[c]),
                     Imf::Slice(Imf::FLOAT, base, pixel, row, 1, 1, c == 3 ? 1.0 : 0.0));
@@ -333,7 +324,7 @@ Metadata read_metadata(const Imf::Header& header) {
 
 struct FoundLayer {
   ExrLayer layer;
-  const ChannelNames& names;
+  ChannelNames names;
 };
 
 // What has channels NAME.R, NAME.G and NAME.B, or others of kLayerNames (R, G and B: the empty
@@ -345,17 +336,15 @@ std::vector<FoundLayer> find_layers(const std::string& path, const Imf::Header& 
     const std::string channel = it.name();
     const size_t dot = channel.rfind('.');
     const std::string name = dot == std::string::npos ? "" : channel.substr(0, dot);
-    const auto has = [&](const char* letter) {
+    const auto has = [&](char letter) {
       return channels.findChannel(channel_name(name, letter)) != nullptr;
     };
-    const auto* names = std::ranges::find_if(kLayerNames, [&](const ChannelNames& candidate) {
-      return std::ranges::all_of(candidate, [&](const char* c) { return !c || has(c); });
-    });
+    const auto* names = std::ranges::find_if(
+        kLayerNames, [&](ChannelNames candidate) { return std::ranges::all_of(candidate, has); });
     // Each once, where its first channel comes by.
     if (names != std::end(kLayerNames) && channel == channel_name(name, (*names)[0])) {
-      const auto count = std::ranges::count_if(*names, [](const char* c) { return c != nullptr; });
-      layers.push_back(
-          {{name, make_image(path, header.dataWindow(), static_cast<int>(count))}, *names});
+      const auto count = static_cast<int>(names->size());
+      layers.push_back({{name, make_image(path, header.dataWindow(), count)}, *names});
     }
   }
   return layers;

@@ -109,8 +109,8 @@ class DataPasses final : public PassIntegrator {
   }
 
   static void see_nothing(DataSample& sample) {
-    for (const DataPass pass : {DataPass::Depth, DataPass::Position, DataPass::ObjectIndex,
-                                DataPass::MaterialIndex}) {
+    for (const DataPass pass :
+         {DataPass::Depth, DataPass::Position, DataPass::ObjectIndex, DataPass::MaterialIndex}) {
       sample.set(pass, vec3(0.0f));
     }
   }
@@ -131,11 +131,10 @@ class DataPasses final : public PassIntegrator {
 
   void see_mattes(const SurfaceInteraction& hit, float weight, DataSample& sample) const {
     if (weight > 0.0f && std::ranges::any_of(choice_.mattes, std::identity())) {
-      sample.mattes.push_back(
-          {{object_ids_[hit.instance],
-            material_ids_[context_.scene.surfaces.material(hit.material)],
-            asset_ids_[hit.instance]},
-           weight});
+      sample.mattes.push_back({{object_ids_[hit.instance],
+                                material_ids_[context_.scene.surfaces.material(hit.material)],
+                                asset_ids_[hit.instance]},
+                               weight});
     }
   }
 
@@ -152,8 +151,7 @@ class DataPasses final : public PassIntegrator {
 
   // Follows a path to the first surface that is rough enough for a denoiser, into mirrors and
   // through glass.
-  void look_for_features(Ray ray, Sampler& sampler, DataSample& sample,
-                         Counters& counters) const {
+  void look_for_features(Ray ray, Sampler& sampler, DataSample& sample, Counters& counters) const {
     Rgb share(1.0f);
     RayType type = RayType::Camera;
     for (int steps = 1; steps < settings_.walk.max_edges + settings_.walk.max_crossings; ++steps) {
@@ -173,8 +171,7 @@ class DataPasses final : public PassIntegrator {
           surface_features(bsdf, shading.transparency, facing(hit->ns, *hit, wo), wo);
       if (found.rough) {
         add(sample, DataPass::DenoisingAlbedo, share * found.albedo);
-        sample.set(DataPass::DenoisingNormal,
-                   vec3(view_.from_world * vec4(found.normal, 0.0f)));
+        sample.set(DataPass::DenoisingNormal, vec3(view_.from_world * vec4(found.normal, 0.0f)));
         return;
       }
       share *= found.smooth;

@@ -18,9 +18,9 @@ SurfaceColor surface_color(const Lobe& lobe, vec3 front, vec3 wo) {
   }
   const float cos = dot(wo, valid_normal(n, ng, wo));
   const float eta = back ? 1.0f / lobe.ior : lobe.ior;
-  const Rgb weight = lobe.weight * (lobe.type == LobeType::Specular
-                                        ? Rgb(1.0f)
-                                        : multiscatter_color(lobe, cos, eta));
+  const Rgb weight =
+      lobe.weight *
+      (lobe.type == LobeType::Specular ? Rgb(1.0f) : multiscatter_color(lobe, cos, eta));
   switch (lobe.type) {
     case LobeType::Metal:
       color.glossy = weight * (lobe.color + (1.0f - lobe.color) *

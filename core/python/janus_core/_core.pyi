@@ -292,7 +292,8 @@ class RenderSession:
     def snapshot(self, name: str = "Combined") -> npt.NDArray[np.float32]:
         """The mean of the whole passes so far: float32[height, width, 4] of the crop, scene linear,
         premultiplied alpha, bottom row first. Other passes than Combined have three channels, or
-        what they need. A new array each time. Raises ValueError for a name that is not in passes()."""
+        what they need. A new array each time. Raises ValueError for a name that is not in passes().
+        """
     def passes(self) -> list[str]:
         """The names that snapshot() knows: Combined, the expressions', Cycles' passes of light, and
         the strategies': 's1 t2 weighted', 's1 t2 alone' (without weight), 'longer weighted';

@@ -84,8 +84,9 @@ def read_layers(
     """(pictures by name, metadata) of a file, whoever wrote it: all that has channels RGB, RGBA,
     rgba (Cryptomatte), XYZ, XYZW, UVA, Z or X.
 
-    Each is float32[height, width, channels], bottom row first, the channels in that order. Plain R, G, B is
-    "Combined"; what Blender writes is called LAYER.PASS. Raises IoError, which names the file.
+    Each is float32[height, width, channels], bottom row first, the channels in that order. Plain
+    R, G, B is "Combined"; what Blender writes is called LAYER.PASS. Raises IoError, which names the
+    file.
     """
     require()
     layers, metadata = _exr.read_layers(os.fsencode(path))

@@ -28,8 +28,8 @@ TEST(Cryptomatte, IdsAreNormalNumbers) {
 
 DataChoice choice() {
   DataChoice c;
-  for (const DataPass pass : {DataPass::Depth, DataPass::Normal, DataPass::Mist, DataPass::Uv,
-                              DataPass::SampleCount}) {
+  for (const DataPass pass :
+       {DataPass::Depth, DataPass::Normal, DataPass::Mist, DataPass::Uv, DataPass::SampleCount}) {
     c.passes[static_cast<size_t>(pass)] = true;
   }
   c.mattes[static_cast<size_t>(MatteKind::Material)] = true;
@@ -49,8 +49,9 @@ DataSample sample(float depth, vec3 normal, std::vector<std::pair<float, float>>
 }
 
 TEST(DataFilm, HasThePassesThatWereAskedFor) {
-  const std::vector<std::string> names = {"Depth", "Normal", "UV", "Mist", "Debug Sample Count",
-                                          "CryptoMaterial00", "CryptoMaterial01"};
+  const std::vector<std::string> names = {
+      "Depth",           "Normal", "UV", "Mist", "Debug Sample Count", "CryptoMaterial00",
+      "CryptoMaterial01"};
   EXPECT_EQ(choice().names(), names);
   EXPECT_FALSE(DataChoice().any());
   DataFilm film({0, 0, 3, 2}, choice());
@@ -58,7 +59,8 @@ TEST(DataFilm, HasThePassesThatWereAskedFor) {
   EXPECT_EQ(film.develop("CryptoMaterial01").channels, 4);
   EXPECT_THROW(film.develop("Position"), std::exception);
   EXPECT_THROW(film.develop("CryptoObject00"), std::exception);
-  EXPECT_EQ(DataFilm::bytes({0, 0, 3, 2}, choice()), 6 * sizeof(float) * (1 + 1 + 3 + 3 + 1 + 1 + 8));
+  EXPECT_EQ(DataFilm::bytes({0, 0, 3, 2}, choice()),
+            6 * sizeof(float) * (1 + 1 + 3 + 3 + 1 + 1 + 8));
 }
 
 // One pixel with two samples, one with one, one with none.
@@ -77,9 +79,9 @@ TEST(DataFilm, KeepsFirstSamplesAndMeans) {
 // Ids by their coverage, two in a picture; what finds no place counts for the last.
 TEST(DataFilm, SortsMattesByCoverage) {
   DataFilm film({0, 0, 1, 1}, choice());
-  const DataSample samples[] = {
-      sample(1, {}, {{7, .25f}, {8, .5f}}), sample(1, {}, {{9, 1}}),
-      sample(1, {}, {{8, .5f}, {10, .25f}, {11, .125f}}), sample(1, {}, {})};
+  const DataSample samples[] = {sample(1, {}, {{7, .25f}, {8, .5f}}), sample(1, {}, {{9, 1}}),
+                                sample(1, {}, {{8, .5f}, {10, .25f}, {11, .125f}}),
+                                sample(1, {}, {})};
   for (const DataSample& s : samples) {
     film.add(0, {&s, 1});
   }
