@@ -58,6 +58,7 @@ class Viewport:
         self._session = None
         self._finished = False  # has it got all its samples?
         self._divider = 1  # of its pixels
+        self._is_draft = False  # is it the first after a change?
         self._shown = 0  # samples of the session in the picture
         self._next_picture = 0.0
         self._seconds = None  # that the last session took for a sample of a pixel
@@ -94,8 +95,7 @@ class Viewport:
         if (view.scaled(1), settings) != (self._view and self._view.scaled(1), self._settings):
             self._restart = True
         self._view, self._settings = view, settings
-        # Drafts are quick, and without them a steady change would never show.
-        if (self._outdated or self._restart) and self._session and self._divider == 1:
+        if self._session and self._obsolete and not self._unseen_draft:
             self._session.cancel()
 
     def advance(self) -> bool:
@@ -112,9 +112,7 @@ class Viewport:
     @property
     def busy(self) -> bool:
         """Is there more to come?"""
-        return bool(
-            self._outdated or self._restart or self._task or (self._session and not self._finished)
-        )
+        return self._obsolete or bool(self._session and not self._finished)
 
     @property
     def status(self) -> str:
@@ -125,15 +123,23 @@ class Viewport:
         samples = 0 if self._divider > 1 else self._shown
         return f"Sample {samples}/{self._settings['samples']}"
 
-    def stop(self) -> None:
-        """Ends what is running. The object is of no use afterwards."""
-        self._session = self._task = self._scene = None
+    @property
+    def _obsolete(self) -> bool:
+        """Does the session render what is no longer so?"""
+        return bool(self._outdated or self._restart or self._task)
+
+    @property
+    def _unseen_draft(self) -> bool:
+        """Drafts are quick, and without them a steady change would never show."""
+        return self._is_draft and self._shown == 0
 
     def _commit(self) -> None:
+        patience = 0.0
         if self._task is None and self._outdated:
             self._task = self._builder.start_commit()
             self._outdated = False
-        if self._task is not None and self._task.wait(SHORT_WAIT):
+            patience = SHORT_WAIT
+        if self._task is not None and self._task.wait(patience):
             task, self._task = self._task, None
             self._scene = task.scene()
             self.log.extend(self._scene.diagnostics)
@@ -143,11 +149,12 @@ class Viewport:
         if self._session is None:
             return True
         if self._restart:
-            return self._divider == 1 or self._samples() > 0 or self._ended()
+            return not self._unseen_draft or self._ended()
         return self._divider > 1 and self._ended()
 
     def _start(self) -> None:
-        if self._restart or self._session is None:
+        self._is_draft = self._restart or self._session is None
+        if self._is_draft:
             divider = self._divider_within(DRAFT_SECONDS, DIVIDERS)
         else:
             finer = [divider for divider in DIVIDERS if divider < self._divider]
@@ -175,7 +182,7 @@ class Viewport:
         return next(quick, dividers[-1])
 
     def _fetch(self) -> bool:
-        if self._session is None:
+        if self._session is None or (self._obsolete and not self._unseen_draft):
             return False
         ended, samples, now = self._ended(), self._samples(), self._now()
         fresh = samples > self._shown
