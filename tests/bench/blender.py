@@ -20,8 +20,9 @@ from pathlib import Path
 from statistics import median
 from types import SimpleNamespace
 
+from _sheet import sheet
+
 ROOT = Path(__file__).resolve().parents[2]
-SIDE = 1000  # quads along a side of the mesh
 VIEW = (1280, 720)  # pixels of the viewport
 SAMPLES = 16
 
@@ -81,25 +82,11 @@ def peak() -> float:
 
 def large_scene(scene) -> None:
     """A hilly mesh, a ball above it, a lamp and the sky."""
-    import bpy
-    import numpy as np
-
     from scenes import kit
 
-    x, y = np.meshgrid(np.linspace(-5, 5, SIDE + 1), np.linspace(-5, 5, SIDE + 1))
-    points = np.stack([x, y, 0.2 * np.sin(2 * x) * np.cos(3 * y)], -1).reshape(-1, 3)
-    corner = np.arange(SIDE)[:, None] * (SIDE + 1) + np.arange(SIDE)[None, :]
-    quads = np.stack([corner, corner + 1, corner + SIDE + 2, corner + SIDE + 1], -1).reshape(-1, 4)
-    mesh = bpy.data.meshes.new("Hills")
-    mesh.vertices.add(len(points))
-    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    mesh.loops.add(quads.size)
-    mesh.loops.foreach_set("vertex_index", quads.astype(np.int32).ravel())
-    mesh.polygons.add(len(quads))
-    mesh.polygons.foreach_set("loop_start", np.arange(0, quads.size, 4, dtype=np.int32))
-    mesh.update(calc_edges=True)
-    mesh.materials.append(kit.diffuse("Grass", (0.3, 0.5, 0.2)))
-    scene.collection.objects.link(bpy.data.objects.new("Hills", mesh))
+    hills = sheet("Hills")
+    hills.scale, hills.location = (0.01, 0.01, 0.05), (-5.0, -5.0, 0.0)
+    hills.data.materials.append(kit.diffuse("Grass", (0.3, 0.5, 0.2)))
     kit.sphere(scene, "Ball", 0.5, kit.diffuse("Red", (0.8, 0.2, 0.1)), 32).location.z = 1.0
     kit.area_light(scene, "Lamp", (2.0, -3.0, 5.0), (0.0, 0.0, 0.0), (1.0, 1.0), 500.0)
     kit.world(scene, (0.4, 0.5, 0.7), 0.5)

@@ -19,8 +19,9 @@ import time
 from pathlib import Path
 from statistics import median
 
+from _sheet import sheet
+
 ROOT = Path(__file__).resolve().parents[2]
-SIDE = 1000  # quads along a side of the mesh
 INSTANCES = 100_000
 TARGETS = {"mesh": 0.2, "instances": 1.0, "escape": 0.2}  # seconds
 
@@ -62,27 +63,6 @@ def child(*words: object) -> dict:
 # --- In the child --------------------------------------------------------------------------------
 
 
-def build_mesh(bpy) -> None:
-    """A wavy sheet, smooth shaded, so that it has all that a sculpture has."""
-    import numpy as np
-
-    x, y = np.meshgrid(np.arange(SIDE + 1), np.arange(SIDE + 1), indexing="ij")
-    z = 4.0 * np.sin(0.05 * x) * np.cos(0.03 * y)
-    points = np.stack([x, y, z], axis=-1).reshape(-1, 3)
-    corner = (np.arange(SIDE)[:, None] * (SIDE + 1) + np.arange(SIDE)).reshape(-1)
-    quads = np.stack([corner, corner + SIDE + 1, corner + SIDE + 2, corner + 1], axis=-1)
-    mesh = bpy.data.meshes.new("Sheet")
-    mesh.vertices.add(len(points))
-    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    mesh.loops.add(quads.size)
-    mesh.loops.foreach_set("vertex_index", quads.astype(np.int32).ravel())
-    mesh.polygons.add(len(quads))
-    mesh.polygons.foreach_set("loop_start", np.arange(0, quads.size, 4, dtype=np.int32))
-    mesh.update(calc_edges=True)
-    mesh.shade_smooth()
-    bpy.context.collection.objects.link(bpy.data.objects.new("Sheet", mesh))
-
-
 def build_instances(bpy) -> None:
     """A ball on each point of a grid."""
     tree = bpy.data.node_groups.new("Balls", "GeometryNodeTree")
@@ -117,7 +97,10 @@ def run_child(case: str, what: str, delay: float = 0.0, phase: str = "") -> dict
     scene.camera = camera
     camera.location = (200, 100, 300)
     scene.render.resolution_x = scene.render.resolution_y = 8
-    {"mesh": build_mesh, "instances": build_instances}[case](bpy)
+    if case == "mesh":
+        sheet("Sheet")
+    else:
+        build_instances(bpy)
     if what == "cycles":
         scene.render.engine = "CYCLES"
         scene.cycles.samples = 1
