@@ -87,7 +87,13 @@ class JANUS_RENDER_PT_report(JanusPanel, bpy.types.Panel):
     def draw(self, context):
         entries = report.kept(context.scene.name_full)
         for entry, count in entries[:MAX_ENTRIES]:
-            draw_text(self.layout, report.counted(entry, count), ICONS[entry.severity])
+            row = self.layout.row()
+            draw_text(row, report.counted(entry, count), ICONS[entry.severity])
+            if entry.object or entry.material:
+                select = row.operator(
+                    "janus.select_reported", text="", icon="RESTRICT_SELECT_OFF", emboss=False
+                )
+                select.object, select.material = entry.object, entry.material
         if len(entries) > MAX_ENTRIES:
             self.layout.label(text=f"and {len(entries) - MAX_ENTRIES} more")
 
