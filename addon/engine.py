@@ -82,6 +82,11 @@ class JanusRenderEngine(bpy.types.RenderEngine):
             view = read_view(context.region, context.region_data, space, depsgraph)
             # Of the original scene: its evaluated copy does not follow each property.
             viewport.look(view, view_settings(depsgraph.scene))
+            if final.running:
+                viewport.pause()
+                self.update_stats("", "Waiting for the render")
+                self._waker.wake(viewport_draw.PAUSE_SECONDS)
+                return
             viewport.advance()
             self.update_stats("", viewport.status)
             if viewport.busy:

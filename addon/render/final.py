@@ -29,6 +29,9 @@ GUIDES = {"albedo": "Denoising Albedo", "normal": "Denoising Normal"}
 # view_layer, frame. Empty if it failed.
 last_render: dict = {}
 
+# How many renders are running. Viewports leave the machine to them.
+running = 0
+
 # Blender shows the passes of a render to no script. Those of the scenes named here are kept: name
 # of a view layer -> name of a pass -> pixels. Whoever asked for them clears both.
 keep_passes_of: set[str] = set()
@@ -45,11 +48,14 @@ def render_layer(engine, depsgraph, log) -> None:
     kept_passes.pop(depsgraph.view_layer_eval.name, None)
     frame = read_frame(depsgraph, engine.is_animation)
     result = LayerResult(engine, frame)
+    global running
+    running += 1
     try:
         last_render.update(_render(engine, depsgraph, frame, result, log))
     except RenderCancelled:
         log.info("Stopped by the user before the first sample")
     finally:
+        running -= 1
         result.end()
 
 

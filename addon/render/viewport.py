@@ -98,6 +98,12 @@ class Viewport:
         if self._session and self._obsolete and not self._unseen_draft:
             self._session.cancel()
 
+    def pause(self) -> None:
+        """Leaves the machine to others; the picture stays. advance() goes on."""
+        if self._session is not None:
+            self._session.cancel()
+            self._restart = True
+
     def advance(self) -> bool:
         """Takes the next steps; True if `picture` is another one."""
         if self._view is None or not self._known:

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 POLL_SECONDS = 0.02
+PAUSE_SECONDS = 0.25  # while a final render runs
 MOST = 65504.0  # of a half float: more would be infinite, and black
 
 
@@ -39,11 +40,11 @@ class Waker:
         self._engine = weakref.ref(engine)
         self._waiting = False
 
-    def wake(self) -> None:
-        """Soon, once. To be called in each draw that is not the last one."""
+    def wake(self, seconds: float = POLL_SECONDS) -> None:
+        """After so long, once. To be called in each draw that is not the last one."""
         if not self._waiting:
             self._waiting = True
-            bpy.app.timers.register(self._tick, first_interval=POLL_SECONDS)
+            bpy.app.timers.register(self._tick, first_interval=seconds)
 
     def _tick(self) -> None:
         self._waiting = False

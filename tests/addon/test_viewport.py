@@ -325,6 +325,28 @@ def test_a_draft_that_ends_between_two_draws_is_seen(world_of_things, core):
     assert first.pixels.shape[:2] == (HEIGHT // 4, WIDTH // 4)
 
 
+def test_pauses_and_goes_on(world_of_things, core):
+    eye = Eye(core)
+    before = eye.wait()
+    world_of_things.janus.preview_samples = 1 << 20
+    eye.look()
+    eye.viewport.advance()
+    eye.viewport.pause()
+    assert eye.viewport._session.wait(5.0)
+    world_of_things.janus.preview_samples = SAMPLES
+    assert np.array_equal(eye.wait(), before)
+
+
+def test_renders_say_that_they_run(scene, fake_core):
+    final, seen = part("render.final"), []
+    fake_core.script = lambda session: seen.append(final.running)
+    bpy.ops.render.render()
+    fake_core.script = lambda session: 1 / 0
+    with pytest.raises(RuntimeError):
+        bpy.ops.render.render()
+    assert set(seen) == {1} and final.running == 0
+
+
 def test_settings_start_again(world_of_things, core):
     eye = Eye(core)
     few = eye.wait()
