@@ -9,7 +9,7 @@ from bpy.app.handlers import persistent
 from . import bridge, report
 from .render import final, passes, preview, viewport_draw
 from .render.viewport import Viewport, forget_addresses
-from .sync.settings import view_settings
+from .sync.settings import view_denoising, view_settings
 from .sync.view import read_view
 
 
@@ -81,7 +81,8 @@ class JanusRenderEngine(bpy.types.RenderEngine):
         try:
             view = read_view(context.region, context.region_data, space, depsgraph)
             # Of the original scene: its evaluated copy does not follow each property.
-            viewport.look(view, view_settings(depsgraph.scene))
+            settings = view_settings(depsgraph.scene)
+            viewport.look(view, settings, view_denoising(depsgraph.scene))
             if final.running:
                 viewport.pause()
                 self.update_stats("", "Waiting for the render")

@@ -51,6 +51,16 @@ DENOISING_QUALITIES = (
     ("BALANCED", "Balanced", "Balanced between performance and quality", 2),
     ("FAST", "Fast", "High performance", 3),
 )
+DENOISING_PASSES = (
+    ("RGB", "None", "The picture alone", 1),
+    ("RGB_ALBEDO", "Albedo", "The picture and its albedo", 2),
+    ("RGB_ALBEDO_NORMAL", "Albedo and Normal", "The picture, its albedo and normals", 3),
+)
+DENOISING_PREFILTERS = (
+    ("NONE", "None", "Nothing: for passes without noise", 1),
+    ("FAST", "Fast", "Denoise them along with the picture", 2),
+    ("ACCURATE", "Accurate", "Denoise them first, which takes more time", 3),
+)
 
 
 def _check_strategies(self, _context):
@@ -99,22 +109,44 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
     denoising_input_passes: EnumProperty(
         name="Denoising Input Passes",
         description="Passes that tell the denoiser noise from detail of shaders and geometry",
-        items=(
-            ("RGB", "None", "The picture alone", 1),
-            ("RGB_ALBEDO", "Albedo", "The picture and its albedo", 2),
-            ("RGB_ALBEDO_NORMAL", "Albedo and Normal", "The picture, its albedo and normals", 3),
-        ),
+        items=DENOISING_PASSES,
         default="RGB_ALBEDO_NORMAL",
     )
     denoising_prefilter: EnumProperty(
         name="Denoising Prefilter",
         description="What to do about the noise of albedo and normals themselves",
-        items=(
-            ("NONE", "None", "Nothing: for passes without noise", 1),
-            ("FAST", "Fast", "Denoise them along with the picture", 2),
-            ("ACCURATE", "Accurate", "Denoise them first, which takes more time", 3),
-        ),
+        items=DENOISING_PREFILTERS,
         default="ACCURATE",
+    )
+    use_preview_denoising: BoolProperty(
+        name="Use Viewport Denoising",
+        description="Denoise the picture of the 3D viewport",
+        default=False,
+    )
+    preview_denoising_start_sample: IntProperty(
+        name="Start Denoising",
+        description="Number of samples that a picture must have to be denoised",
+        min=0,
+        max=1 << 24,
+        default=1,
+    )
+    preview_denoising_input_passes: EnumProperty(
+        name="Viewport Denoising Input Passes",
+        description="Passes that tell the denoiser noise from detail of shaders and geometry",
+        items=DENOISING_PASSES,
+        default="RGB_ALBEDO",
+    )
+    preview_denoising_prefilter: EnumProperty(
+        name="Viewport Denoising Prefilter",
+        description="What to do about the noise of albedo and normals themselves",
+        items=DENOISING_PREFILTERS,
+        default="FAST",
+    )
+    preview_denoising_quality: EnumProperty(
+        name="Viewport Denoising Quality",
+        description="Overall denoising quality when using OpenImageDenoise",
+        items=DENOISING_QUALITIES,
+        default="BALANCED",
     )
     seed: IntProperty(
         name="Seed",

@@ -82,28 +82,50 @@ def denoise(
     means all. `cancel` is called by this thread every POLL_SECONDS, true ends it.
     Raises DenoiseFailed, DenoiseCancelled, and ValueError for arrays that do not fit together.
     """
-    library, reason = _find()
-    if library is None:
-        raise DenoiseFailed(reason)
-    images = {
-        name: np.ascontiguousarray(pixels, dtype=np.float32)
-        for name, pixels in (("color", color), ("albedo", albedo), ("normal", normal))
-        if pixels is not None
-    }
-    _check_shapes(images)
-    height, width = images["color"].shape[:2]
-    images = {name: _grown(pixels) for name, pixels in images.items()}
-    stop = threading.Event()
-    executor = ThreadPoolExecutor(1, "denoise")
-    future = executor.submit(_work, library, images, prefilter, QUALITIES[quality], threads, stop)
-    executor.shutdown(wait=False)
+    task = DenoiseTask(color, albedo, normal, prefilter, quality, threads)
     try:
-        while not wait([future], POLL_SECONDS).done:
+        while not task.wait(POLL_SECONDS):
             if cancel and cancel():
                 raise DenoiseCancelled
-        return future.result()[:height, :width]
+        return task.result()
     finally:
-        stop.set()
+        task.cancel()
+
+
+class DenoiseTask:
+    """The same in the background: for who cannot wait. Arguments and errors are denoise()'s."""
+
+    def __init__(
+        self, color, albedo=None, normal=None, prefilter="ACCURATE", quality="HIGH", threads=0
+    ):
+        library, reason = _find()
+        if library is None:
+            raise DenoiseFailed(reason)
+        images = {
+            name: np.ascontiguousarray(pixels, dtype=np.float32)
+            for name, pixels in (("color", color), ("albedo", albedo), ("normal", normal))
+            if pixels is not None
+        }
+        _check_shapes(images)
+        self._size = images["color"].shape[:2]
+        images = {name: _grown(pixels) for name, pixels in images.items()}
+        self._stop = threading.Event()
+        executor = ThreadPoolExecutor(1, "denoise")
+        arguments = (library, images, prefilter, QUALITIES[quality], threads, self._stop)
+        self._future = executor.submit(_work, *arguments)
+        executor.shutdown(wait=False)
+
+    def wait(self, seconds: float) -> bool:
+        """Waits so long for the end; true if it has come."""
+        return bool(wait([self._future], seconds).done)
+
+    def result(self) -> np.ndarray:
+        height, width = self._size
+        return self._future.result()[:height, :width]
+
+    def cancel(self) -> None:
+        """The result will not be asked for."""
+        self._stop.set()
 
 
 def _check_shapes(images: dict[str, np.ndarray]) -> None:

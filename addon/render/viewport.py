@@ -15,6 +15,7 @@ from .. import report
 from ..sync.cache import SceneCache, read_changes
 from ..sync.difference import DifferenceBuilder
 from ..sync.scene_sync import sync_objects
+from .viewport_denoise import PictureDenoiser
 
 DIVIDERS = (1, 2, 4, 8)  # pixels of a draft are so many times as large
 FIRST_DIVIDER = 4  # before it is known how fast this scene renders
@@ -54,11 +55,13 @@ class Viewport:
         self._core = core
         self._now = now
         self._start_over()
-        self._view = self._settings = None
+        self._view = self._settings = self._denoising = None
+        self._denoiser = PictureDenoiser(None)
         self._session = None
         self._finished = False  # has it got all its samples?
         self._divider = 1  # of its pixels
         self._is_draft = False  # is it the first after a change?
+        self._target = 0  # samples of the session when it ends
         self._shown = 0  # samples of the session in the picture
         self._next_picture = 0.0
         self._seconds = None  # that the last session took for a sample of a pixel
@@ -86,8 +89,11 @@ class Viewport:
         sync_objects(self._builder, depsgraph, self._cache, self.log, changes, shown)
         self._known = True
 
-    def look(self, view, settings: dict) -> None:
-        """`settings`: those of RenderSettings but for its size."""
+    def look(self, view, settings: dict, denoising: dict | None = None) -> None:
+        """`settings`: those of RenderSettings but for its size; `denoising`: view_denoising()."""
+        if denoising != self._denoising:
+            self._denoiser, self._denoising = PictureDenoiser(denoising), denoising
+            self._restart = True
         self._builder.set_camera(**view.camera)
         if self._builder.changed:
             self._builder.changed = False
@@ -109,7 +115,8 @@ class Viewport:
         if self._view is None or not self._known:
             return False
         self._commit()
-        fresh = self._fetch()  # first: what ends now may not have been seen
+        fresh = self._take_clean()
+        fresh = self._fetch() or fresh  # now: what ends here may not have been seen
         if self._task is None and self._scene is not None and self._may_start():
             self._start()
             fresh = self._fetch() or fresh
@@ -118,7 +125,8 @@ class Viewport:
     @property
     def busy(self) -> bool:
         """Is there more to come?"""
-        return self._obsolete or bool(self._session and not self._finished)
+        running = self._session is not None and not self._finished
+        return self._obsolete or running or self._denoiser.busy
 
     @property
     def status(self) -> str:
@@ -167,12 +175,13 @@ class Viewport:
             divider = self._divider_within(STEP_SECONDS, finer)
         self._restart = False
         self._session = None  # waits for its threads
+        self._denoiser.begin(self._is_draft)
         settings = self._settings | self._view.scaled(divider)
         if divider > 1:
             settings["samples"] = 1
         session = self._core.RenderSession(self._scene, self._core.RenderSettings(**settings))
         session.start()
-        self._session, self._divider = session, divider
+        self._session, self._divider, self._target = session, divider, settings["samples"]
         self._rectangle = self._view.rectangle
         self._finished, self._shown, self._next_picture = False, 0, 0.0
         end = self._now() + SHORT_WAIT
@@ -194,7 +203,10 @@ class Viewport:
         fresh = samples > self._shown
         if fresh and (ended or now >= self._next_picture):
             pixels = self._session.snapshot()
-            self.picture = Picture(pixels, self._rectangle)
+            last = ended or samples == self._target
+            fresh = self._denoiser.add(self._session, pixels, samples, last)
+            if fresh:
+                self.picture = Picture(pixels, self._rectangle)
             self._shown = samples
             pause = max(MIN_INTERVAL, (self._now() - now) / MAX_SHARE)
             self._next_picture = self._now() + pause
@@ -205,6 +217,14 @@ class Viewport:
             self._finished = self._divider == 1
             self._session.finish()  # raises what went wrong
         return fresh
+
+    def _take_clean(self) -> bool:
+        """The picture that has been denoised meanwhile, unless it is out of date."""
+        pixels = self._denoiser.take()
+        if pixels is None or self._obsolete:
+            return False
+        self.picture = Picture(pixels, self._rectangle)
+        return True
 
     def _samples(self) -> int:
         return self._session.progress()["samples"]

@@ -25,11 +25,16 @@ SHARED = (
     "denoising_quality",
     "denoising_input_passes",
     "denoising_prefilter",
+    "use_preview_denoising",
+    "preview_denoising_start_sample",
+    "preview_denoising_input_passes",
+    "preview_denoising_prefilter",
+    "preview_denoising_quality",
 )
 
 # Cycles' defaults for these are no answers: the samples are a ceiling for its adaptive sampling,
 # and denoising is a bias, which here is on only where somebody has asked for it.
-CHOSEN = ("samples", "use_denoising")
+CHOSEN = ("samples", "use_denoising", "use_preview_denoising")
 
 
 def value(scene, name: str):

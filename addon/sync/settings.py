@@ -86,9 +86,29 @@ def render_settings(depsgraph) -> dict:
 
 def view_settings(scene) -> dict:
     """The same for a viewport, but for its resolution."""
+    denoising = view_denoising(scene)
     return {
         **light_settings(scene),
         "samples": cycles_settings.value(scene, "preview_samples") or UNLIMITED_SAMPLES,
+        "data_passes": list(denoising["guides"]) if denoising else [],
+    }
+
+
+def view_denoising(scene) -> dict | None:
+    """How a viewport is to be denoised: from which sample on, what the denoiser looks at, and its
+    arguments. None: it is not.
+    """
+
+    def shared(name):
+        return cycles_settings.value(scene, f"preview_denoising_{name}")
+
+    if not cycles_settings.value(scene, "use_preview_denoising"):
+        return None
+    return {
+        "start_sample": shared("start_sample"),
+        "guides": passes.GUIDES[shared("input_passes")],
+        "prefilter": shared("prefilter"),
+        "quality": shared("quality"),
     }
 
 

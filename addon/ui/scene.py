@@ -15,34 +15,60 @@ class JANUS_RENDER_PT_sampling(JanusPanel, bpy.types.Panel):
     bl_context = "render"
 
     def draw(self, context):
+        self.column().prop(context.scene.janus, "seed")
+
+
+class JANUS_RENDER_PT_sampling_viewport(JanusPanel, bpy.types.Panel):
+    bl_label = "Viewport"
+    bl_parent_id = "JANUS_RENDER_PT_sampling"
+
+    def draw(self, context):
+        self.column().prop(context.scene.janus, "preview_samples", text="Samples")
+
+
+class JANUS_RENDER_PT_sampling_render(JanusPanel, bpy.types.Panel):
+    bl_label = "Render"
+    bl_parent_id = "JANUS_RENDER_PT_sampling"
+
+    def draw(self, context):
         column = self.column()
-        column.prop(context.scene.janus, "preview_samples")
         column.prop(context.scene.janus, "samples")
         column.prop(context.scene.janus, "time_limit")
-        column.prop(context.scene.janus, "seed")
 
 
-class JANUS_RENDER_PT_sampling_denoise(JanusPanel, bpy.types.Panel):
+class DenoisePanel(JanusPanel):
     bl_label = "Denoise"
-    bl_parent_id = "JANUS_RENDER_PT_sampling"
     bl_options = {"DEFAULT_CLOSED"}
+    switch = prefix = ""  # the names of the settings
 
     def draw_header(self, context):
         self.layout.enabled = not denoise.unavailable()
-        self.layout.prop(context.scene.janus, "use_denoising", text="")
+        self.layout.prop(context.scene.janus, self.switch, text="")
 
     def draw(self, context):
         reason = denoise.unavailable()
         if reason:
             draw_text(self.layout, reason, "INFO")
+        janus = context.scene.janus
         column = self.column()
         column.enabled = not reason
-        column.active = context.scene.janus.use_denoising
-        janus = context.scene.janus
-        column.prop(janus, "denoising_input_passes", text="Passes")
-        if janus.denoising_input_passes != "RGB":
-            column.prop(janus, "denoising_prefilter", text="Prefilter")
-        column.prop(janus, "denoising_quality", text="Quality")
+        column.active = getattr(janus, self.switch)
+        column.prop(janus, f"{self.prefix}_input_passes", text="Passes")
+        if getattr(janus, f"{self.prefix}_input_passes") != "RGB":
+            column.prop(janus, f"{self.prefix}_prefilter", text="Prefilter")
+        column.prop(janus, f"{self.prefix}_quality", text="Quality")
+        if hasattr(janus, f"{self.prefix}_start_sample"):
+            column.prop(janus, f"{self.prefix}_start_sample", text="Start Sample")
+
+
+class JANUS_RENDER_PT_sampling_viewport_denoise(DenoisePanel, bpy.types.Panel):
+    bl_parent_id = "JANUS_RENDER_PT_sampling_viewport"
+    switch, prefix = "use_preview_denoising", "preview_denoising"
+
+
+class JANUS_RENDER_PT_sampling_denoise(DenoisePanel, bpy.types.Panel):
+    bl_parent_id = "JANUS_RENDER_PT_sampling_render"
+    switch, prefix = "use_denoising", "denoising"
 
 
 class JANUS_RENDER_PT_light_paths(JanusPanel, bpy.types.Panel):
@@ -214,6 +240,9 @@ class JANUS_VIEWLAYER_PT_filter(JanusPanel, bpy.types.Panel):
 
 CLASSES = (
     JANUS_RENDER_PT_sampling,
+    JANUS_RENDER_PT_sampling_viewport,
+    JANUS_RENDER_PT_sampling_viewport_denoise,
+    JANUS_RENDER_PT_sampling_render,
     JANUS_RENDER_PT_sampling_denoise,
     JANUS_RENDER_PT_light_paths,
     JANUS_RENDER_PT_light_paths_max_bounces,

@@ -23,7 +23,14 @@ OWN = {
     "denoising_input_passes": "RGB_ALBEDO",
     "denoising_prefilter": "FAST",
 }
-OF_VIEWPORTS = {"preview_samples": 77}
+OF_VIEWPORTS = {
+    "preview_samples": 77,
+    "use_preview_denoising": True,
+    "preview_denoising_start_sample": 3,
+    "preview_denoising_input_passes": "RGB_ALBEDO_NORMAL",
+    "preview_denoising_prefilter": "ACCURATE",
+    "preview_denoising_quality": "FAST",
+}
 NOT_FOR_THE_CORE = {name for name in OWN if "denoising" in name}  # see test_denoised_render.py
 CORE_NAMES = {
     "diffuse_bounces": "max_diffuse_bounces",
@@ -69,7 +76,16 @@ def test_a_render_takes_what_the_file_says_for_cycles(scene, cycles, fake_core):
 
 
 def test_so_does_a_viewport(scene, cycles):
-    assert part("sync.settings").view_settings(scene)["samples"] == 77
+    settings = part("sync.settings")
+    assert settings.view_settings(scene)["samples"] == 77
+    guides = ("Denoising Albedo", "Denoising Normal")
+    assert settings.view_settings(scene)["data_passes"] == list(guides)
+    assert settings.view_denoising(scene) == {
+        "start_sample": 3,
+        "guides": guides,
+        "prefilter": "ACCURATE",
+        "quality": "FAST",
+    }
     part("sync.cycles_settings").adopt(scene)
     assert scene.janus.preview_samples == 77
     scene.janus.preview_samples = 0

@@ -205,26 +205,30 @@ def test_no_panel_hides_what_blender_keeps_in_it(addon):
         assert not kept & set(vars(cls)), cls.__name__
 
 
-def test_denoising_is_greyed_with_the_reason(scene, monkeypatch):
+@pytest.mark.parametrize("where", ["render", "viewport"])
+def test_denoising_is_greyed_with_the_reason(scene, monkeypatch, where):
     """The layout is one for all, so that what the panel sets in its parts is seen."""
     layout = Layout()
     layout.column = layout.row = lambda **_: layout
-    panel = bpy.types.JANUS_RENDER_PT_sampling_denoise
-    assert panel.bl_parent_id == "JANUS_RENDER_PT_sampling"
-    stub = SimpleNamespace(layout=layout, column=lambda: layout)
+    suffix, prefix = ("", "denoising") if where == "render" else ("viewport_", "preview_denoising")
+    panel = getattr(bpy.types, f"JANUS_RENDER_PT_sampling_{suffix}denoise")
+    assert panel.bl_parent_id == f"JANUS_RENDER_PT_sampling_{where}"
+    stub = SimpleNamespace(
+        layout=layout, column=lambda: layout, switch=panel.switch, prefix=panel.prefix
+    )
     context = SimpleNamespace(scene=scene)
+    names = ["input_passes", "prefilter", "quality"] + ["start_sample"] * (where == "viewport")
     for reason, lines in ((None, []), ("No library.", [("No library.", "INFO", False)])):
         monkeypatch.setattr(part("render.denoise"), "unavailable", lambda reason=reason: reason)
         for use in (False, True):
-            scene.janus.use_denoising = use
+            setattr(scene.janus, panel.switch, use)
             layout.drawn.clear()
             panel.draw_header(stub, context)
-            assert layout.drawn == ["use_denoising"] and layout.enabled is (reason is None)
+            assert layout.drawn == [panel.switch] and layout.enabled is (reason is None)
             layout.drawn.clear()
             layout.enabled = None
             panel.draw(stub, context)
-            names = ("input_passes", "prefilter", "quality")
-            assert layout.drawn == [*lines, *(f"denoising_{name}" for name in names)]
+            assert layout.drawn == [*lines, *(f"{prefix}_{name}" for name in names)]
             assert layout.enabled is (reason is None) and layout.active is use
 
 

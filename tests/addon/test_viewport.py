@@ -93,7 +93,9 @@ class Eye:
         rv3d, region, space = through_camera(), SimpleNamespace(width=WIDTH, height=HEIGHT), plain()
         depsgraph = bpy.context.evaluated_depsgraph_get()
         view = part("sync.view").read_view(region, rv3d, space, depsgraph)
-        self.viewport.look(view, part("sync.settings").view_settings(depsgraph.scene))
+        settings = part("sync.settings")
+        scene = depsgraph.scene
+        self.viewport.look(view, settings.view_settings(scene), settings.view_denoising(scene))
 
     def wait(self) -> np.ndarray:
         """Draws until nothing more comes: the picture."""
@@ -323,6 +325,19 @@ def test_a_draft_that_ends_between_two_draws_is_seen(world_of_things, core):
         eye.viewport.advance()
         first = eye.viewport.picture
     assert first.pixels.shape[:2] == (HEIGHT // 4, WIDTH // 4)
+
+
+def test_can_be_denoised(world_of_things, core):
+    if reason := part("render.denoise").unavailable():
+        pytest.skip(reason)
+    eye = Eye(core)
+    noisy = eye.wait()
+    world_of_things.janus.use_preview_denoising = True
+    clean = eye.wait()
+    assert clean.shape == noisy.shape and np.array_equal(clean[..., 3], noisy[..., 3])
+    assert 0.0 < np.abs(clean - noisy).mean() < 0.3 * noisy.mean()
+    world_of_things.janus.use_preview_denoising = False
+    assert np.array_equal(eye.wait(), noisy)
 
 
 def test_pauses_and_goes_on(world_of_things, core):
