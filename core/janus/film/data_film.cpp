@@ -15,6 +15,15 @@ std::string level_name(size_t kind, size_t level) {
 
 }  // namespace
 
+bool DataChoice::surfaces() const {
+  DataChoice rest = *this;
+  for (const DataPass pass : {DataPass::DenoisingAlbedo, DataPass::DenoisingNormal,
+                              DataPass::DenoisingDepth, DataPass::SampleCount}) {
+    rest.passes[static_cast<size_t>(pass)] = false;
+  }
+  return rest.any();
+}
+
 bool DataChoice::any() const { return !names().empty(); }
 
 std::vector<std::string> DataChoice::names() const {

@@ -63,6 +63,8 @@ struct DataChoice {
     return wants(DataPass::DenoisingAlbedo) || wants(DataPass::DenoisingNormal) ||
            wants(DataPass::DenoisingDepth);
   }
+  // Is anything but that wanted of surfaces?
+  bool surfaces() const;
   bool any() const;
   // The names of all pictures that there are then: CryptoObject00, CryptoObject01, ...
   std::vector<std::string> names() const;

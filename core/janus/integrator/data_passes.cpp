@@ -54,7 +54,9 @@ class DataPasses final : public PassIntegrator {
     sampler.start_block(0);
     const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
     const Ray ray = context_.camera.sample_ray(raster, sampler.next_2d()).ray;
-    look_straight(ray, sample, counters);
+    if (choice_.surfaces()) {
+      look_straight(ray, sample, counters);
+    }
     if (choice_.features()) {
       look_for_features(ray, sampler, sample, counters);
     }
@@ -76,6 +78,9 @@ class DataPasses final : public PassIntegrator {
       const vec3 wo = -ray.direction;
       const ShadingResult shading = context_.scene.shade(*hit, wo);
       if (context_.scene.instances[hit->instance].holdout || shading.holdout >= 1.0f) {
+        if (!done) {
+          see_nothing(sample);
+        }
         return;
       }
       const float alpha = 1.0f - average(shading.transparency);

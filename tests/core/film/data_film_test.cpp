@@ -54,6 +54,10 @@ TEST(DataFilm, HasThePassesThatWereAskedFor) {
       "CryptoMaterial01"};
   EXPECT_EQ(choice().names(), names);
   EXPECT_FALSE(DataChoice().any());
+  EXPECT_TRUE(choice().surfaces() && !choice().features());
+  DataChoice features;
+  features.passes[static_cast<size_t>(DataPass::DenoisingAlbedo)] = true;
+  EXPECT_TRUE(features.features() && !features.surfaces());
   DataFilm film({0, 0, 3, 2}, choice());
   EXPECT_EQ(film.develop("UV").channels, 3);
   EXPECT_EQ(film.develop("CryptoMaterial01").channels, 4);
