@@ -4,7 +4,15 @@
 import bpy
 
 from .engine_panels import JanusPanel
-from .material import draw_surface, draw_use_nodes
+from .material import PreviewPanel, draw_surface, draw_use_nodes
+
+
+class JANUS_WORLD_PT_preview(PreviewPanel, bpy.types.Panel):
+    bl_context = "world"
+
+    @staticmethod
+    def shown(context):
+        return context.world
 
 
 class JANUS_WORLD_PT_surface(JanusPanel, bpy.types.Panel):
@@ -32,6 +40,14 @@ class LightPanel(JanusPanel):
     @classmethod
     def poll(cls, context):
         return super().poll(context) and context.light
+
+
+class JANUS_LIGHT_PT_preview(PreviewPanel, bpy.types.Panel):
+    bl_context = "data"
+
+    @staticmethod
+    def shown(context):
+        return context.light
 
 
 class JANUS_LIGHT_PT_light(LightPanel, bpy.types.Panel):
@@ -104,7 +120,9 @@ class JANUS_LIGHT_PT_nodes(LightPanel, bpy.types.Panel):
 
 
 CLASSES = (
+    JANUS_WORLD_PT_preview,
     JANUS_WORLD_PT_surface,
+    JANUS_LIGHT_PT_preview,
     JANUS_LIGHT_PT_light,
     JANUS_LIGHT_PT_beam,
     JANUS_LIGHT_PT_nodes,

@@ -64,6 +64,29 @@ class JANUS_MATERIAL_PT_context(JanusPanel, bpy.types.Panel):
             row.operator("object.material_slot_deselect", text="Deselect")
 
 
+class PreviewPanel(JanusPanel):
+    """The picture that render/preview.py makes."""
+
+    bl_label = "Preview"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and cls.shown(context) is not None
+
+    def draw(self, context):
+        self.layout.template_preview(self.shown(context))
+
+
+class JANUS_MATERIAL_PT_preview(PreviewPanel, bpy.types.Panel):
+    bl_context = "material"
+
+    @staticmethod
+    def shown(context):
+        material = context.material
+        return None if material and material.grease_pencil else material
+
+
 class JANUS_MATERIAL_PT_surface(JanusPanel, bpy.types.Panel):
     bl_label = "Surface"
     bl_context = "material"
@@ -83,4 +106,4 @@ class JANUS_MATERIAL_PT_surface(JanusPanel, bpy.types.Panel):
         draw_surface(self.layout, material.node_tree)
 
 
-CLASSES = (JANUS_MATERIAL_PT_context, JANUS_MATERIAL_PT_surface)
+CLASSES = (JANUS_MATERIAL_PT_context, JANUS_MATERIAL_PT_preview, JANUS_MATERIAL_PT_surface)

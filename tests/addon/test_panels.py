@@ -74,6 +74,34 @@ def test_light_passes_are_laid_out_as_in_cycles(scene):
     assert {toggle for toggle, _, _ in table.READY_MADE} < set(drawn)
 
 
+def test_data_passes_and_cryptomatte(scene):
+    table, layer = part("sync.passes"), scene.view_layers[0]
+    drawn = draw("JANUS_VIEWLAYER_PT_passes_data")
+    switches = {names[0] for names in (*table.DATA_PASSES, *table.OWN_DATA_PASSES)}
+    assert switches | {"use_pass_combined", "pass_alpha_threshold"} == set(drawn)
+    drawn = draw("JANUS_VIEWLAYER_PT_passes_cryptomatte")
+    assert "pass_cryptomatte_depth" in drawn and len(drawn) == 4
+    assert all(hasattr(layer, name) for name in drawn)
+
+
+def test_previews_are_of_what_is_chosen(scene):
+    drawn = []
+    layout = SimpleNamespace(template_preview=drawn.append)
+    items = {
+        "MATERIAL": bpy.data.materials.new("Paint"),
+        "WORLD": bpy.data.worlds.new("Sky"),
+        "LIGHT": bpy.data.lights.new("Lamp", "POINT"),
+    }
+    for kind, item in items.items():
+        panel = getattr(bpy.types, f"JANUS_{kind}_PT_preview")
+        context = {"material": None, "world": None, "light": None, "engine": "JANUS"}
+        assert not panel.poll(SimpleNamespace(**context))
+        context = SimpleNamespace(**(context | {kind.lower(): item}))
+        assert panel.poll(context)
+        panel.draw(SimpleNamespace(layout=layout, shown=panel.shown), context)
+    assert drawn == list(items.values())
+
+
 def test_light_groups(scene):
     assert "lightgroups" in draw("JANUS_VIEWLAYER_PT_passes_lightgroups")
     world = bpy.data.worlds.new("Sky")
