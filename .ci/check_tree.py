@@ -32,7 +32,7 @@ CORE_LAYERS = [
     {"session"},
 ]
 ADDON_LAYERS = [
-    {"report", "bridge"},
+    {"report", "bridge", "presets"},
     {"nodes"},
     {"sync"},
     {"properties"},

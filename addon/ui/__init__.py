@@ -3,9 +3,10 @@
 
 import bpy
 
-from . import data, diagnostics, engine_panels, material, passes, scene
+from . import data, diagnostics, engine_panels, material, passes, presets, scene
 
 CLASSES = (
+    *presets.CLASSES,
     *diagnostics.CLASSES,
     *scene.CLASSES,
     *passes.CLASSES,
@@ -18,9 +19,11 @@ def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     engine_panels.register()
+    presets.register()
 
 
 def unregister():
+    presets.unregister()
     engine_panels.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

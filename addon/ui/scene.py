@@ -8,6 +8,7 @@ from ..sync.settings import merges
 from .diagnostics import draw_text
 from .engine_panels import JanusPanel
 from .passes import draw_problem
+from .presets import JANUS_PT_light_paths_presets, JANUS_PT_sampling_presets
 
 
 class JANUS_RENDER_PT_sampling(JanusPanel, bpy.types.Panel):
@@ -29,6 +30,9 @@ class JANUS_RENDER_PT_sampling_viewport(JanusPanel, bpy.types.Panel):
 class JANUS_RENDER_PT_sampling_render(JanusPanel, bpy.types.Panel):
     bl_label = "Render"
     bl_parent_id = "JANUS_RENDER_PT_sampling"
+
+    def draw_header_preset(self, context):
+        JANUS_PT_sampling_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
         column = self.column()
@@ -76,6 +80,7 @@ class JANUS_RENDER_PT_light_paths(JanusPanel, bpy.types.Panel):
     bl_context = "render"
 
     def draw_header_preset(self, context):
+        JANUS_PT_light_paths_presets.draw_panel_header(self.layout)
         self.layout.operator("janus.copy_settings_from_cycles", text="", icon="DUPLICATE")
 
     def draw(self, context):

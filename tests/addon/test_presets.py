@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Presets: those that come along, and the user's."""
+
+from pathlib import Path
+
+import bpy
+import pytest
+from conftest import part
+
+
+def shipped() -> list[str]:
+    folders = bpy.utils.preset_paths("janus/light_paths")
+    return sorted(str(file) for folder in folders for file in Path(folder).glob("*.py"))
+
+
+def run(file: str) -> None:
+    assert bpy.ops.script.execute_preset(
+        filepath=file, menu_idname="JANUS_PT_light_paths_presets"
+    ) == {"FINISHED"}
+
+
+@pytest.mark.parametrize(
+    ("name", "bounces", "diffuse"),
+    [("Default", 12, 4), ("Direct_Light", 0, 0), ("Full_Global_Illumination", 32, 32)],
+)
+def test_those_that_come_along(scene, name, bounces, diffuse):
+    scene.janus.sample_clamp_indirect = 10.0
+    run(next(file for file in shipped() if Path(file).stem == name))
+    janus = scene.janus
+    assert (janus.max_bounces, janus.diffuse_bounces) == (bounces, diffuse)
+    assert janus.sample_clamp_indirect == 0.0
+
+
+def test_the_default_is_the_default(scene):
+    run(next(file for file in shipped() if file.endswith("Default.py")))
+    for name in part("ui.presets").LIGHT_PATHS:
+        assert getattr(scene.janus, name) == scene.janus.bl_rna.properties[name].default
+
+
+@pytest.mark.parametrize("kind", ["sampling", "light_paths"])
+def test_a_preset_of_ones_own_comes_back(scene, kind, tmp_path, monkeypatch):
+    presets = part("ui.presets")
+    names = presets.SAMPLING if kind == "sampling" else presets.LIGHT_PATHS
+
+    def user_resource(*_, path="", **__):
+        (tmp_path / path).mkdir(parents=True, exist_ok=True)
+        return str(tmp_path / path)
+
+    monkeypatch.setattr(bpy.utils, "user_resource", user_resource)
+    janus = scene.janus
+    changed = {}
+    for name in names:
+        prop = janus.bl_rna.properties[name]
+        if prop.type == "ENUM":
+            changed[name] = prop.enum_items[0].identifier
+        else:
+            changed[name] = not prop.default if prop.type == "BOOLEAN" else 3
+        setattr(janus, name, changed[name])
+    add = getattr(bpy.ops.janus, f"{kind}_preset_add")
+    assert add(name="Mine") == {"FINISHED"}
+    (file,) = tmp_path.rglob("*.py")
+    for name in names:
+        janus.property_unset(name)
+    exec(compile(file.read_text(), str(file), "exec"), {"bpy": bpy})
+    assert {name: getattr(janus, name) for name in names} == changed
