@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from mistakes.clear_views import CLEAR
+from mistakes.data import DATA_AND_COMMITS
 from mistakes.densities import DENSITIES
 from mistakes.film import FILM_AND_SAMPLES
 from mistakes.lecture import LECTURE_MADE_VISIBLE
@@ -14,4 +15,4 @@ from mistakes.values import VALUES
 from mistakes.views import VIEWS
 
 MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES + SPECULAR_WALKS
-MISTAKES += LECTURE_MADE_VISIBLE
+MISTAKES += LECTURE_MADE_VISIBLE + DATA_AND_COMMITS
