@@ -70,7 +70,8 @@ class JanusRenderEngine(bpy.types.RenderEngine):
         self._viewport.sync(depsgraph, in_part(space) if any(self._part) else None)
         scene = depsgraph.scene
         layers = [layer.name for layer in scene.view_layers]
-        report.keep(scene.name_full, depsgraph.view_layer.name, layers, self._viewport.log)
+        name = depsgraph.view_layer.name
+        report.keep_of_viewport(scene.name_full, name, layers, self._viewport.log)
 
     def _draw_viewport(self, context, depsgraph) -> None:
         viewport, space = self._viewport, context.space_data

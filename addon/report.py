@@ -101,6 +101,16 @@ def keep(scene: str, view_layer: str, layers: list[str], log: DiagnosticsLog) ->
         del logs[name]
 
 
+def keep_of_viewport(scene: str, view_layer: str, layers: list[str], log: DiagnosticsLog) -> None:
+    """The same of a viewport, in place of the last render's. Why that failed is still to be read
+    until the next render."""
+    before = _kept[scene].get(view_layer)
+    for entry, count in before.entries("ERROR") if before else ():
+        if entry not in log.counts:
+            log.add(entry, count)
+    keep(scene, view_layer, layers, log)
+
+
 def kept(scene: str) -> list[tuple[Entry, int]]:
     """The findings of the scene's last render over all its view layers."""
     merged = DiagnosticsLog()

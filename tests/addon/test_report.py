@@ -3,7 +3,7 @@
 
 import bpy
 import pytest
-from conftest import add_square
+from conftest import add_square, part
 
 
 @pytest.fixture
@@ -46,3 +46,26 @@ def test_what_cannot_be_selected_changes_nothing(things):
     for about in ({"object": "Nobody"}, {"object": "Gate"}, {}):
         assert bpy.ops.janus.select_reported(**about) == {"CANCELLED"}
     assert bpy.data.objects["Wall"].select_get()
+
+
+def test_a_viewport_does_not_hide_why_a_render_failed(scene):
+    report = part("report")
+
+    def log(severity, message):
+        found = report.DiagnosticsLog()
+        found.add(report.Entry(severity, message))
+        return found
+
+    def said():
+        return [(entry.severity, entry.message) for entry, _ in report.kept("Scene")]
+
+    report.forget()
+    report.keep("Scene", "Layer", ["Layer"], log("WARNING", "old"))
+    report.keep_of_viewport("Scene", "Layer", ["Layer"], log("WARNING", "new"))
+    assert said() == [("WARNING", "new")]
+    report.keep("Scene", "Layer", ["Layer"], log("ERROR", "failed"))
+    for message in ("first", "second"):
+        report.keep_of_viewport("Scene", "Layer", ["Layer"], log("WARNING", message))
+        assert said() == [("ERROR", "failed"), ("WARNING", message)]
+    report.keep("Scene", "Layer", ["Layer"], log("INFO", "well"))
+    assert said() == [("INFO", "well")]
