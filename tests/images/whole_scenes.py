@@ -32,10 +32,10 @@ ALL = {
     "pool": Case(40, 24, 1024, 1024),
     "studio": Case(40, 24, 512, 256),
     "sunlit_exterior": Case(40, 24, 512, 256),
-    "many_lights": Case(40, 24, 2048, 1024, long=True),
+    "many_lights": Case(40, 24, 4096, 2048, long=True),
     "hdri_interior": Case(40, 24, 2048, 512, long=True),
     "ajar_door": Case(40, 24, 4096, 1024, long=True),
-    "hidden_light": Case(40, 24, 8192, 1024, long=True),
+    "hidden_light": Case(40, 24, 16384, 2048, long=True),
     "metal_ring": Case(40, 24, 8192, 6144, long=True),
 }
 CASES = {name: case for name, case in ALL.items() if not case.long or "JANUS_FULL" in os.environ}
