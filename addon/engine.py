@@ -36,7 +36,7 @@ class JanusRenderEngine(bpy.types.RenderEngine):
 
     def render(self, depsgraph):
         if self.is_preview:
-            self._problem = self._try(lambda: preview.render_preview(self, depsgraph))
+            self._try(lambda: preview.render_preview(self, depsgraph))
             return
         log = report.DiagnosticsLog()
         try:

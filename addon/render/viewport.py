@@ -88,6 +88,8 @@ class Viewport:
         self._known = False
         sync_objects(self._builder, depsgraph, self._cache, self.log, changes, shown)
         self._known = True
+        if self._scene is not None and not self._builder.changed:
+            self._add_findings()  # of the scene as it stays
 
     def look(self, view, settings: dict, denoising: dict | None = None) -> None:
         """`settings`: those of RenderSettings but for its size; `denoising`: view_denoising()."""
@@ -116,7 +118,7 @@ class Viewport:
             return False
         self._commit()
         fresh = self._take_clean()
-        fresh = self._fetch() or fresh  # now: what ends here may not have been seen
+        fresh = self._fetch() or fresh  # a draft that has ended is seen before the next step starts
         if self._task is None and self._scene is not None and self._may_start():
             self._start()
             fresh = self._fetch() or fresh
@@ -156,8 +158,16 @@ class Viewport:
         if self._task is not None and self._task.wait(patience):
             task, self._task = self._task, None
             self._scene = task.scene()
-            self.log.extend(self._scene.diagnostics)
+            self._add_findings()
             self._restart = True
+
+    def _add_findings(self) -> None:
+        """What the core says of the scene, once: each turn of the view makes another scene."""
+        found = report.DiagnosticsLog()
+        found.extend(self._scene.diagnostics)
+        for entry, count in found.entries():
+            if entry not in self.log.counts:
+                self.log.add(entry, count)
 
     def _may_start(self) -> bool:
         if self._session is None:

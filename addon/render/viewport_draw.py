@@ -23,7 +23,7 @@ class PictureOnScreen:
 
         if picture is not self._picture:
             height, width = picture.pixels.shape[:2]
-            values = np.minimum(picture.pixels, MOST).astype(np.float32).reshape(-1)
+            values = np.minimum(picture.pixels, np.float32(MOST)).reshape(-1)
             buffer = gpu.types.Buffer("FLOAT", len(values), values)
             self._texture = gpu.types.GPUTexture((width, height), format="RGBA16F", data=buffer)
             self._picture = picture

@@ -24,7 +24,8 @@ class Changes:
 
 
 def read_changes(depsgraph) -> Changes:
-    geometry, images, only_cameras = set(), set(), True
+    # Without any update, something is asked for that is no data-block's: local view, say.
+    geometry, images, only_cameras = set(), set(), len(depsgraph.updates) > 0
     for update in depsgraph.updates:
         item = update.id.original
         if update.is_updated_geometry:
@@ -48,11 +49,13 @@ class SceneCache:
         self._meshes = {}  # (address of the evaluated mesh, attributes) -> SentMesh
         self._images = set()  # keys
         self._placed = set()  # keys of materials, instances and lights
+        self._now_placed = set()  # those of the present sync
         self._number = 0
         self.begin()
 
     def begin(self, changes: Changes | None = None) -> None:
         """Starts a sync; without `changes` nothing is known to be as it was."""
+        self._placed |= self._now_placed  # a sync that failed has placed things, too
         self._used_meshes, self._used_images, self._now_placed = set(), set(), set()
         for identity, entry in list(self._meshes.items()):
             if changes is None or not changes.geometry.isdisjoint(entry.sources):

@@ -16,20 +16,20 @@ def picture(item) -> np.ndarray:
     return np.array(item.preview.image_pixels_float[:], np.float32).reshape(height, width, 4)
 
 
+def colored(item, kind: str, socket: str, color):
+    item.use_nodes = True
+    node = next(node for node in item.node_tree.nodes if node.type == kind)
+    node.inputs[socket].default_value = (*color, 1.0)
+    return item
+
+
 def red_material():
     material = bpy.data.materials.new("Red")
-    material.use_nodes = True
-    shader = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
-    shader.inputs["Base Color"].default_value = (0.8, 0.05, 0.05, 1.0)
-    return material
+    return colored(material, "BSDF_PRINCIPLED", "Base Color", (0.8, 0.05, 0.05))
 
 
 def sky():
-    world = bpy.data.worlds.new("Sky")
-    world.use_nodes = True
-    background = next(n for n in world.node_tree.nodes if n.type == "BACKGROUND")
-    background.inputs["Color"].default_value = (0.1, 0.2, 0.9, 1.0)
-    return world
+    return colored(bpy.data.worlds.new("Sky"), "BACKGROUND", "Color", (0.1, 0.2, 0.9))
 
 
 @pytest.fixture

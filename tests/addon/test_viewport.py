@@ -1,132 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rendered viewports: what a change sends, and that the picture is that of a fresh start."""
+"""Rendered viewports: drafts, pauses, undo, and what is said."""
 
-import contextlib
 import time
 from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
-from conftest import add_square, part
-from view_kit import HEIGHT, WIDTH, plain, through_camera
-
-SAMPLES = 2
+from conftest import part
+from view_kit import HEIGHT, WIDTH
+from viewport_kit import SAMPLES, Eye, followed_by, furnish
 
 
 @pytest.fixture
 def world_of_things(scene):
-    """A floor with a picture on it, a ball and its copy, a lamp."""
-    scene.render.resolution_x, scene.render.resolution_y = WIDTH, HEIGHT
-    scene.janus.samples = scene.janus.preview_samples = SAMPLES
-    floor = add_square("Floor")
-    floor.data.uv_layers.new(name="UVMap")
-    floor.scale = (3.0, 3.0, 1.0)
-    material = bpy.data.materials.new("Tiles")
-    material.use_nodes = True
-    image = bpy.data.images.new("Picture", 4, 4)
-    image.pixels.foreach_set(np.random.default_rng(1).random(64, dtype=np.float32))
-    nodes, links = material.node_tree.nodes, material.node_tree.links
-    texture = nodes.new("ShaderNodeTexImage")
-    texture.image = image
-    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
-    links.new(texture.outputs["Color"], shader.inputs["Base Color"])
-    floor.data.materials.append(material)
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=8, ring_count=4, radius=0.4)
-    ball = bpy.context.object
-    ball.name = "Ball"
-    ball.location = (-0.5, 0.0, 0.5)
-    twin = bpy.data.objects.new("Twin", ball.data)
-    twin.location = (0.6, 0.2, 0.4)
-    scene.collection.objects.link(twin)
-    lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT"))
-    lamp.location, lamp.data.energy = (1.0, -1.0, 3.0), 100.0
-    scene.collection.objects.link(lamp)
-    scene.world = bpy.data.worlds.new("World")
-    return scene
-
-
-class Spy:
-    """A SceneBuilder that counts what it is sent."""
-
-    def __init__(self, builder):
-        self.builder, self.calls = builder, []
-
-    def __getattr__(self, name):
-        target = getattr(self.builder, name)
-
-        def call(*arguments, **keywords):
-            self.calls.append(name)
-            return target(*arguments, **keywords)
-
-        return call
-
-    def sent(self) -> set[str]:
-        """What was sent since the last time."""
-        found = {name for name in self.calls if name.startswith(("set_", "remove"))}
-        self.calls.clear()
-        return found
-
-
-class Eye:
-    """A viewport without a window, in the hands of a test."""
-
-    def __init__(self, core):
-        self.spies = []
-
-        def builder():
-            self.spies.append(Spy(core.SceneBuilder()))
-            return self.spies[-1]
-
-        names = ("RenderSettings", "RenderSession")
-        spied = SimpleNamespace(
-            SceneBuilder=builder, **{name: getattr(core, name) for name in names}
-        )
-        self.viewport = part("render.viewport").Viewport(spied)
-        self.sync(bpy.context.evaluated_depsgraph_get())
-
-    def sync(self, depsgraph):
-        self.viewport.sync(depsgraph)
-        self.depsgraph = depsgraph
-
-    def look(self):
-        rv3d, region, space = through_camera(), SimpleNamespace(width=WIDTH, height=HEIGHT), plain()
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-        view = part("sync.view").read_view(region, rv3d, space, depsgraph)
-        settings = part("sync.settings")
-        scene = depsgraph.scene
-        self.viewport.look(view, settings.view_settings(scene), settings.view_denoising(scene))
-
-    def wait(self) -> np.ndarray:
-        """Draws until nothing more comes: the picture."""
-        self.look()
-        end = time.monotonic() + 30.0
-        while self.viewport.advance() or self.viewport.busy:
-            assert time.monotonic() < end, "the viewport does not come to an end"
-            time.sleep(0.001)
-        return self.viewport.picture.pixels
-
-    def sent(self) -> set[str]:
-        return self.spies[-1].sent()
-
-    @property
-    def counts(self):
-        return self.viewport._scene.counts
-
-
-@contextlib.contextmanager
-def followed_by(eye):
-    """What is edited inside reaches the viewport as in Blender, with the depsgraph's updates."""
-
-    def update(_scene, depsgraph):
-        eye.sync(depsgraph)
-
-    bpy.app.handlers.depsgraph_update_post.append(update)
-    try:
-        yield
-        bpy.context.view_layer.update()
-    finally:
-        bpy.app.handlers.depsgraph_update_post.remove(update)
+    return furnish(scene)
 
 
 def rendered(scene, path) -> np.ndarray:
@@ -150,104 +38,6 @@ def test_shows_what_f12_renders(world_of_things, core, tmp_path):
     assert np.allclose(
         picture, rendered(world_of_things, tmp_path / "f12.exr"), rtol=1e-5, atol=1e-6
     )
-
-
-def edit_mesh():
-    mesh = bpy.data.objects["Ball"].data
-    mesh.vertices[0].co.z += 0.7
-    mesh.update()
-
-
-def edit_picture():
-    image = bpy.data.images["Picture"]
-    image.pixels.foreach_set(np.zeros(64, dtype=np.float32))
-    image.update_tag()
-
-
-def add_modifier():
-    bpy.data.objects["Ball"].modifiers.new("Subsurf", "SUBSURF")
-
-
-def assign(name, path, value):
-    def edit():
-        owner = bpy.data.objects[name]
-        *steps, last = path.split(".")
-        for step in steps:
-            owner = getattr(owner, step)
-        setattr(owner, last, value)
-
-    return edit
-
-
-def roughen():
-    nodes = bpy.data.materials["Tiles"].node_tree.nodes
-    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
-    shader.inputs["Roughness"].default_value = 0.1
-    shader.inputs["Metallic"].default_value = 1.0
-
-
-def recolor():
-    world = bpy.data.worlds["World"]
-    world.use_nodes = True
-    background = next(n for n in world.node_tree.nodes if n.type == "BACKGROUND")
-    background.inputs["Color"].default_value = (0.1, 0.9, 0.2, 1.0)
-
-
-def remove_twin():
-    bpy.data.objects.remove(bpy.data.objects["Twin"])
-
-
-def add_another():
-    obj = bpy.data.objects.new("Another", bpy.data.objects["Ball"].data)
-    obj.location = (0.0, -0.9, 0.4)
-    bpy.context.scene.collection.objects.link(obj)
-
-
-def hide():
-    bpy.data.objects["Ball"].hide_viewport = True
-
-
-def swap_places_and_data():
-    """The data of a deleted object may come to lie where those of a new one do."""
-    bpy.data.meshes.remove(bpy.data.objects["Ball"].data)
-    square = add_square("New")
-    square.location.z = 0.7
-
-
-MOVES = {"set_instance"}
-EDITS = {
-    "move": (assign("Ball", "location", (0.2, 0.6, 0.8)), MOVES),
-    "move the floor": (assign("Floor", "location", (0.0, 0.0, -1.0)), MOVES),
-    "ray visibility": (assign("Ball", "visible_camera", False), MOVES),
-    "lamp": (assign("Lamp", "data.energy", 500.0), {"set_light"}),
-    "move the lamp": (assign("Lamp", "location", (-1.0, 0.0, 2.0)), {"set_light"}),
-    "material": (roughen, {"set_material"}),
-    "world": (recolor, {"set_world"}),
-    "mesh": (edit_mesh, {"set_mesh", "set_instance", "remove"}),
-    "modifier": (add_modifier, {"set_mesh", "set_instance", "remove"}),
-    "picture": (edit_picture, {"set_image", "remove"}),
-    "remove": (remove_twin, {"set_instance", "set_light", "remove"}),
-    "add": (add_another, {"set_instance", "set_light", "set_mesh", "remove"}),
-    "hide": (hide, {"set_instance", "set_light", "remove", "set_mesh"}),
-    "swap": (swap_places_and_data, {"set_instance", "set_light", "remove", "set_mesh"}),
-}
-
-
-@pytest.mark.parametrize("name", EDITS)
-def test_an_edit_sends_what_has_changed(world_of_things, core, name):
-    edit, expected = EDITS[name]
-    eye = Eye(core)
-    before = eye.wait()
-    assert eye.sent() >= {"set_mesh", "set_image", "set_world", "set_light", "set_camera"}
-    with followed_by(eye):
-        edit()
-    after = eye.wait()
-    sent = eye.sent()
-    assert sent and sent <= expected
-    assert not np.array_equal(after, before)
-    if "set_mesh" not in expected:
-        assert eye.counts["meshes_built"] == 0
-    assert np.allclose(after, Eye(core).wait(), rtol=1e-5, atol=1e-6)
 
 
 def test_what_does_not_show_starts_nothing(world_of_things, core):
@@ -316,15 +106,83 @@ def test_drafts_come_first_where_samples_are_slow(world_of_things, core):
 
 def test_a_draft_that_ends_between_two_draws_is_seen(world_of_things, core):
     eye = Eye(core)
+    make, sessions = core.RenderSession, []
+
+    def started_later(scene, settings):
+        sessions.append(make(scene, settings))
+        names = ("progress", "snapshot", "stats", "cancel", "finish", "wait")
+        late = {name: getattr(sessions[-1], name) for name in names}
+        return SimpleNamespace(start=lambda: None, **late)
+
+    eye.viewport._core.RenderSession = started_later
     eye.look()
-    eye.viewport.advance()
-    first = eye.viewport.picture
     end = time.monotonic() + 10.0
-    while first is None and time.monotonic() < end:
-        eye.viewport._session and eye.viewport._session.wait(10.0)
-        eye.viewport.advance()
-        first = eye.viewport.picture
-    assert first.pixels.shape[:2] == (HEIGHT // 4, WIDTH // 4)
+    while not sessions and time.monotonic() < end:
+        assert not eye.viewport.advance()
+    sessions[0].start()
+    sessions[0].finish()
+    assert eye.viewport.advance()
+    assert eye.viewport.picture.pixels.shape[:2] == (HEIGHT // 4, WIDTH // 4)
+
+
+def test_local_view_comes_without_an_update(world_of_things, core):
+    eye = Eye(core)
+    before = eye.wait()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    assert len(depsgraph.updates) == 0
+    eye.viewport.sync(depsgraph, lambda obj: obj.name != "Ball")
+    assert not np.array_equal(eye.wait(), before)
+    eye.viewport.sync(depsgraph)
+    assert np.allclose(eye.wait(), before, rtol=1e-5, atol=1e-6)
+
+
+def test_what_is_left_out_is_said_once_and_stays_said(world_of_things, core):
+    """By the exporter, and by the core at each commit."""
+    material = bpy.data.materials["Tiles"]
+    nodes = material.node_tree.nodes
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    noise = nodes.new("ShaderNodeTexNoise")
+    material.node_tree.links.new(noise.outputs[0], shader.inputs["Roughness"])
+    bpy.context.view_layer.update()
+    eye = Eye(core)
+    eye.wait()
+    said = dict(eye.viewport.log.counts)
+    assert any(entry.node == noise.name for entry in said)
+    for x in (0.1, 0.2):  # the view turns
+        world_of_things.camera.location.x += x
+        bpy.context.view_layer.update()
+        eye.wait()
+        assert eye.viewport.log.counts == said
+    with followed_by(eye):
+        bpy.data.objects["Ball"].select_set(True)
+        world_of_things.render.fps = 31
+    eye.wait()
+    assert eye.viewport.log.counts == said
+    with followed_by(eye):
+        nodes.remove(noise)
+    eye.wait()
+    assert not any(entry.node for entry in eye.viewport.log.counts)
+
+
+def test_a_sync_that_fails_leaves_nothing_behind(world_of_things, core, monkeypatch):
+    """Objects that came with it are gone in the next."""
+    eye = Eye(core)
+    before = eye.wait()
+    for number in range(3):
+        extra = bpy.data.objects.new(f"A {number}", bpy.data.objects["Ball"].data)
+        extra.location = (number - 1.0, -0.8, 0.5)
+        world_of_things.collection.objects.link(extra)
+    bpy.context.view_layer.update()
+    cache = part("sync.cache").SceneCache
+    with monkeypatch.context() as patch:
+        patch.setattr(cache, "end", lambda self: 1 / 0)
+        with pytest.raises(ZeroDivisionError):
+            eye.viewport.sync(bpy.context.evaluated_depsgraph_get())
+    for number in range(3):
+        bpy.data.objects.remove(bpy.data.objects[f"A {number}"])
+    bpy.context.view_layer.update()
+    eye.viewport.sync(bpy.context.evaluated_depsgraph_get())
+    assert np.allclose(eye.wait(), before, rtol=1e-5, atol=1e-6)
 
 
 def test_can_be_denoised(world_of_things, core):

@@ -4,12 +4,10 @@
 // much of it each covers. A name is known by a hash, which is kept as a float.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace janus {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/film/data_film.h"
 
+#include <algorithm>
+
 #include "janus/util/error.h"
 
 namespace janus {

@@ -114,9 +114,10 @@ class DataPasses final : public PassIntegrator {
   }
 
   static void see_nothing(DataSample& sample) {
-    for (const DataPass pass :
-         {DataPass::Depth, DataPass::Position, DataPass::ObjectIndex, DataPass::MaterialIndex}) {
-      sample.set(pass, vec3(0.0f));
+    for (size_t i = 0; i < kDataPassCount; ++i) {
+      if (kDataPasses[i].first) {
+        sample.set(static_cast<DataPass>(i), vec3(0.0f));
+      }
     }
   }
 
