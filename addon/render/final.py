@@ -2,6 +2,7 @@
 """The F12 render of one view layer: export, build, render, hand over the pixels."""
 
 import contextlib
+import math
 import time
 
 import bpy
@@ -115,7 +116,13 @@ def _build(core, engine, depsgraph, frame, settings, log):
     builder = core.SceneBuilder()
     capture = bridge.capturing_builder(builder) if frame.capture_path else None
     engine.update_stats("", "Synchronizing objects")
-    sync_scene(capture or builder, depsgraph, log, engine.test_break)
+    sync_scene(
+        capture or builder,
+        depsgraph,
+        log,
+        engine.test_break,
+        lambda time: engine.frame_set(math.floor(time), subframe=time - math.floor(time)),
+    )
     if capture:
         capture.save(frame.capture_path, settings)
         log.info(f"Scene description saved as {frame.capture_path}")

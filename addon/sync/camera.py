@@ -16,8 +16,9 @@ PANORAMAS = {
 }
 
 
-def sync_camera(builder, depsgraph, log) -> None:
-    """Sends the scene's camera. Raises RenderRefused for what cannot be rendered at all."""
+def sync_camera(builder, depsgraph, log) -> tuple[float, float, float, float]:
+    """Sends the scene's camera, and returns its window. Raises RenderRefused for what cannot be
+    rendered at all."""
     scene = depsgraph.scene_eval
     if scene.camera is None:
         raise RenderRefused("The scene has no active camera")
@@ -42,6 +43,7 @@ def sync_camera(builder, depsgraph, log) -> None:
         pixel_size=(frame[3] - frame[2]) / frame_size(scene.render)[1],
         **(lens(data, transform, depsgraph) if data.dof.use_dof else {}),
     )
+    return frame
 
 
 def camera_type(camera) -> str:

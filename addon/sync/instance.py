@@ -24,19 +24,22 @@ SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 class InstanceSync:
     """Walks depsgraph.object_instances once and sends what it finds."""
 
-    def __init__(self, builder, materials, images, cache, log, poll):
+    def __init__(self, builder, materials, images, cache, log, poll, motion=None):
         self._builder = builder
         self._cache = cache
         self._materials = materials
         self._images = images
         self._log = log
         self._poll = poll
+        self._motion = motion
         self._properties = InstanceProperties(log)
         self._kinds = {}  # addresses of an object, its data and who shows it -> arguments
         self._checked = set()
+        self._attributes = {}  # key of a mesh -> those that it was sent with
 
     def run(self, depsgraph, shown=None) -> None:
         """`shown`: of an original object, whether it is part of the picture."""
+        self._depsgraph = depsgraph
         self._view_layer = depsgraph.view_layer
         # What passes read of meshes, whatever the materials.
         self._of_passes = frozenset(["uv:"] if self._view_layer.use_pass_uv else [])
@@ -67,12 +70,18 @@ class InstanceSync:
             if own_keys:
                 own = self._properties.attributes(instance, own_keys)
                 arguments = arguments | {"attributes": arguments["attributes"] | own}
+            key = self._cache.place("instance")
             self._builder.set_instance(
-                self._cache.place("instance"),
+                key,
                 transform=np.array(instance.matrix_world, dtype=np.float64),
                 random=object_random(obj, instance.random_id),
                 **arguments,
             )
+            if self._motion:
+                mesh = arguments["mesh"]
+                self._motion.saw(
+                    instance, owner, key, mesh, self._attributes[mesh], self._depsgraph
+                )
 
     def _arguments(self, instance) -> tuple[dict | None, list[str]]:
         """Those of set_instance that all instances of a kind share (None: there are no faces), and
@@ -106,9 +115,9 @@ class InstanceSync:
         """
         identity = (obj.data.as_pointer(), attributes)
         sources = {item.original.as_pointer() for item in (obj, obj.data, owner)}
-        return self._cache.mesh(
-            identity, sources, lambda key: self._send_mesh(key, obj, attributes)
-        )
+        key = self._cache.mesh(identity, sources, lambda key: self._send_mesh(key, obj, attributes))
+        self._attributes[key] = attributes
+        return key
 
     def _send_mesh(self, key: str, obj, attributes: frozenset[str]) -> bool:
         try:

@@ -15,9 +15,7 @@ def mesh_arrays(mesh, slots: int, attributes, log) -> dict | None:
     `slots` is the number of material slots of the object that shows the mesh, `attributes` the
     keys of what its materials read.
     """
-    derived = not DERIVED.keys().isdisjoint(attributes)
-    if derived and bpy.app.version < (5, 1, 0) and mesh.normals_domain == "CORNER":
-        mesh.split_faces()  # as Cycles did, so that islands end at sharp edges
+    derived = _take_apart(mesh, attributes)
     mesh.calc_loop_triangles()
     triangle_count, corner_count = len(mesh.loop_triangles), len(mesh.loops)
     if triangle_count == 0:
@@ -32,6 +30,24 @@ def mesh_arrays(mesh, slots: int, attributes, log) -> dict | None:
         **({"edges": edges_of(mesh)} if derived else {}),
         **_attributes(mesh, triangle_count, attributes, log),
     }
+
+
+def mesh_form(mesh, attributes) -> tuple[np.ndarray, np.ndarray | None]:
+    """Positions and normals, of vertices or corners, as mesh_arrays() gives them."""
+    _take_apart(mesh, attributes)
+    normals = _vertex_normals(mesh)
+    if normals is None:
+        normals = _corner_normals(mesh, len(mesh.loops))
+    return _positions(mesh), normals
+
+
+def _take_apart(mesh, attributes) -> bool:
+    """As Cycles did before 5.1, so that islands end at sharp edges. Whether the core is to compute
+    attributes."""
+    derived = not DERIVED.keys().isdisjoint(attributes)
+    if derived and bpy.app.version < (5, 1, 0) and mesh.normals_domain == "CORNER":
+        mesh.split_faces()
+    return derived
 
 
 def _attributes(mesh, triangle_count: int, keys, log) -> dict:

@@ -33,6 +33,7 @@ DATA_PASSES = (
     ("use_pass_mist", "Mist", "Mist", "Z", "VALUE"),
     ("use_pass_position", "Position", "Position", "XYZ", "VECTOR"),
     ("use_pass_normal", "Normal", "Normal", "XYZ", "VECTOR"),
+    ("use_pass_vector", "Vector", "Vector", "XYZW", "VECTOR"),
     ("use_pass_uv", "UV", "UV", "UVA", "VECTOR"),
     ("use_pass_object_index", "Object Index", "IndexOB", "X", "VALUE"),
     ("use_pass_material_index", "Material Index", "IndexMA", "X", "VALUE"),
@@ -54,7 +55,6 @@ GUIDES = {
 }
 # Passes of Blender and of Cycles that Janus does not make.
 UNSUPPORTED = (
-    ("use_pass_vector", "Vector"),
     ("use_pass_ambient_occlusion", "Ambient Occlusion"),
 )
 

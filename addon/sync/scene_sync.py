@@ -6,21 +6,37 @@ from .camera import sync_camera
 from .image import ImageSync
 from .instance import InstanceSync
 from .material import MaterialSync
+from .motion import MotionSync, shutter
 from .poll import Poll
 from .visibility import check_scene
 from .world import sync_world
 
 
-def sync_scene(builder, depsgraph, log, test_break=lambda: False) -> None:
+def sync_scene(builder, depsgraph, log, test_break=lambda: False, set_frame=None) -> None:
     """Sends the evaluated scene to `builder` (a SceneBuilder or anything with its methods).
 
-    Writes what cannot be rendered to `log`. Raises RenderRefused for what makes the whole render
-    pointless and RenderCancelled when test_break() says so.
+    set_frame(time) evaluates it anew at a time in frames; without, nothing moves. Writes what
+    cannot be rendered to `log`. Raises RenderRefused for what makes the whole render pointless and
+    RenderCancelled when test_break() says so.
     """
     poll = Poll(test_break)
     poll()
-    sync_camera(builder, depsgraph, log)
-    sync_objects(builder, depsgraph, SceneCache(builder), log, poll=poll)
+    scene = depsgraph.scene_eval
+    open_at = shutter(scene, depsgraph.view_layer_eval) if set_frame else None
+    if open_at is None:
+        sync_camera(builder, depsgraph, log)
+        sync_objects(builder, depsgraph, SceneCache(builder), log, poll=poll)
+        return
+    now = scene.frame_current + scene.frame_subframe
+    motion = MotionSync(open_at, log)
+    try:
+        if open_at.center != now:
+            set_frame(open_at.center)
+        window = sync_camera(builder, depsgraph, log)
+        sync_objects(builder, depsgraph, SceneCache(builder), log, poll=poll, motion=motion)
+        motion.run(builder, depsgraph, window, set_frame, poll)
+    finally:
+        set_frame(now)
 
 
 def sync_objects(
@@ -31,14 +47,15 @@ def sync_objects(
     changes: Changes | None = None,
     shown=None,
     poll=lambda: None,
+    motion: MotionSync | None = None,
 ) -> None:
     """Sends all but the camera. What `cache` knows from before and is not among the changes stays
-    where it is. `shown`: see InstanceSync.run().
+    where it is. `shown`: see InstanceSync.run(). `motion` gets to know what can move.
     """
     cache.begin(changes)
     images = ImageSync(builder, depsgraph, cache, log)
     sync_world(builder, depsgraph, images, log)
     check_scene(depsgraph, log)
     materials = MaterialSync(builder, depsgraph, images, cache, log)
-    InstanceSync(builder, materials, images, cache, log, poll).run(depsgraph, shown)
+    InstanceSync(builder, materials, images, cache, log, poll, motion).run(depsgraph, shown)
     cache.end()

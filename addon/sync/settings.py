@@ -80,6 +80,7 @@ def render_settings(depsgraph) -> dict:
         "crop": crop_window(scene.render, width, height),
         "samples": depsgraph.view_layer_eval.samples or cycles_settings.value(scene, "samples"),
         "seconds": cycles_settings.value(scene, "time_limit"),
+        "motion_blur": scene.render.use_motion_blur and depsgraph.view_layer_eval.use_motion_blur,
         **passes.arguments(scene, depsgraph.view_layer_eval),
     }
 

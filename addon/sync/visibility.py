@@ -24,8 +24,6 @@ def check_scene(depsgraph, log) -> None:
     render = depsgraph.scene_eval.render
     if notice := cycles_settings.notice(depsgraph.scene_eval):
         log.info(notice)
-    if render.use_motion_blur:
-        log.warning("Motion blur is not supported yet")
     if render.use_multiview:
         log.warning("Stereoscopy is not supported, all views show the same picture")
 

@@ -26,6 +26,7 @@ namespace py = pybind11;
 void bind_errors(py::module_& m);
 void bind_scene(py::module_& m);
 void bind_mesh(py::class_<SceneBuilder>& builder);
+void bind_motion(py::class_<SceneBuilder>& builder);
 void bind_session(py::module_& m);
 
 // {"nodes": [...], "surface": ...} as the add-on's flattener writes it. `key` is for messages.

@@ -74,6 +74,43 @@ std::vector<Index> to_indices(Key key, const char* path, const py::array& a, py:
   return result;
 }
 
+// float[N, rows, columns] as N matrices; `read(values, i)` makes one of the i-th.
+template <class T, class Read>
+std::vector<T> to_series(Key key, const char* path, const py::object& value, py::ssize_t rows,
+                         py::ssize_t columns, Read&& read) {
+  const auto a = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
+  if (!a || a.ndim() != 3 || (rows && a.shape(1) != rows) || a.shape(2) != columns) {
+    PyErr_Clear();
+    std::string shape = "must be an array of numbers, (N, ";
+    shape += rows ? std::to_string(rows) : "M";
+    shape += ", " + std::to_string(columns) + ")";
+    throw SceneError(key, path, shape);
+  }
+  std::vector<T> result;
+  for (py::ssize_t i = 0; i < a.shape(0); ++i) {
+    result.push_back(read(a.data() + i * a.shape(1) * columns, a.shape(1)));
+  }
+  return result;
+}
+
+// From the rows of a matrix.
+inline mat4 to_matrix(const double* rows) {
+  mat4 result;
+  for (int i = 0; i < 16; ++i) {
+    result[i % 4][i / 4] = static_cast<float>(rows[i]);
+  }
+  return result;
+}
+
+inline mat4 to_matrix(Key key, const py::object& value) {
+  const auto a = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
+  if (!a || a.ndim() != 2 || a.shape(0) != 4 || a.shape(1) != 4) {
+    PyErr_Clear();
+    throw SceneError(key, "transform", "must be a 4x4 matrix of numbers");
+  }
+  return to_matrix(a.data());
+}
+
 // Anything that NumPy makes an array of.
 inline py::array to_array(const py::object& value) {
   auto a = py::array::ensure(value);

@@ -41,21 +41,6 @@ RayMask to_mask(bool camera, bool diffuse, bool glossy, bool transmission, bool 
   return mask;
 }
 
-mat4 to_matrix(Key key, const py::object& value) {
-  const auto a = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
-  if (!a || a.ndim() != 2 || a.shape(0) != 4 || a.shape(1) != 4) {
-    PyErr_Clear();
-    throw SceneError(key, "transform", "must be a 4x4 matrix of numbers");
-  }
-  mat4 result;
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      result[column][row] = static_cast<float>(a.at(row, column));
-    }
-  }
-  return result;
-}
-
 // --- Builder
 // --------------------------------------------------------------------------------------
 
@@ -225,6 +210,7 @@ void bind_scene(py::module_& m) {
       "Collects a scene description. Keys are the caller's; setting a key "
       "again replaces the item. Lengths in metres, matrices as in Blender.");
   bind_mesh(builder);
+  bind_motion(builder);
   builder.def(py::init<>())
       .def(
           "set_material",

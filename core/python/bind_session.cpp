@@ -94,7 +94,8 @@ RenderSettings make_settings(
     int max_transmission_bounces, int transparent_max_bounces, float clamp_direct,
     float clamp_indirect, const std::string& integrator, const std::string& filter,
     float filter_width, float light_paths, float connections, float merge_radius,
-    bool adaptive_counts, const std::string& heuristic, float film_exposure, bool film_transparent,
+    bool adaptive_counts, const std::string& heuristic, bool motion_blur, float film_exposure,
+    bool film_transparent,
     bool film_transparent_glass, float film_transparent_roughness, bool roulette,
     bool check_weights, bool next_event, const std::string& connection_mode,
     const std::string& strategies, const Expressions& expressions,
@@ -136,6 +137,7 @@ RenderSettings make_settings(
   }
   s.light_passes = light_passes;
   s.strategy_images = strategy_images;
+  s.motion_blur = motion_blur;
   s.film_exposure = film_exposure;
   s.film_transparent = film_transparent;
   s.film_transparent_glass = film_transparent_glass;
@@ -194,6 +196,7 @@ py::dict to_dict(const RenderSettings& s) {
   d["pass_alpha_threshold"] = s.data_settings.alpha_threshold;
   const Mist& mist = s.data_settings.mist;
   d["mist"] = py::make_tuple(mist.start, mist.depth, mist.falloff);
+  d["motion_blur"] = s.motion_blur;
   d["film_exposure"] = s.film_exposure;
   d["film_transparent"] = s.film_transparent;
   d["film_transparent_glass"] = s.film_transparent_glass;
@@ -232,6 +235,7 @@ void bind_settings(py::module_& m) {
       "Object, Material, Asset, each in so many cryptomatte_levels (pictures of two ids); "
       "pass_alpha_threshold: surfaces with less alpha are looked through; mist: start and depth in "
       "metres, and the power of the falloff; "
+      "motion_blur: whether what moves is blurred; "
       "film_exposure: a factor of the colour; film_transparent: the world is not in the picture; "
       "film_transparent_glass: nor behind glass of up to film_transparent_roughness; "
       "roulette: False traces every path and every shadow ray to its end (slow); "
@@ -248,7 +252,8 @@ void bind_settings(py::module_& m) {
       "filter"_a = to_name(kFilters, d.filter), "filter_width"_a = d.filter_width,
       "light_paths"_a = d.light_paths, "connections"_a = d.connections,
       "merge_radius"_a = d.merge_radius, "adaptive_counts"_a = d.adaptive_counts,
-      "heuristic"_a = to_name(kHeuristics, d.heuristic), "film_exposure"_a = d.film_exposure,
+      "heuristic"_a = to_name(kHeuristics, d.heuristic), "motion_blur"_a = d.motion_blur,
+      "film_exposure"_a = d.film_exposure,
       "film_transparent"_a = d.film_transparent,
       "film_transparent_glass"_a = d.film_transparent_glass,
       "film_transparent_roughness"_a = d.film_transparent_roughness, "roulette"_a = d.roulette,

@@ -47,7 +47,7 @@ DataFilm::DataFilm(FilmRect rect, DataChoice choice)
     : rect_(rect), choice_(choice), counts_(rect.pixels()) {
   for (size_t i = 0; i < kDataPassCount; ++i) {
     if (choice.passes[i]) {
-      passes_[i].resize(rect.pixels() * kDataPasses[i].channels);
+      passes_[i].resize(rect.pixels() * kDataPasses[i].kept());
     }
   }
   for (size_t kind = 0; kind < kMatteKinds; ++kind) {
@@ -60,7 +60,7 @@ DataFilm::DataFilm(FilmRect rect, DataChoice choice)
 size_t DataFilm::bytes(const FilmRect& rect, const DataChoice& choice) {
   size_t floats = choice.any() ? 1 : 0;
   for (size_t i = 0; i < kDataPassCount; ++i) {
-    floats += choice.passes[i] ? static_cast<size_t>(kDataPasses[i].channels) : 0;
+    floats += choice.passes[i] ? kDataPasses[i].kept() : 0;
   }
   for (const bool wanted : choice.mattes) {
     floats += wanted ? 4 * static_cast<size_t>(choice.matte_levels) : 0;
@@ -72,17 +72,20 @@ std::span<Coverage> DataFilm::coverages(size_t pixel, size_t kind) {
   return std::span(mattes_[kind]).subspan(pixel * slots(), slots());
 }
 
-void DataFilm::add(size_t first, std::span<const DataSample> samples) {
+void DataFilm::add(size_t first, std::span<const std::optional<DataSample>> samples) {
   const std::lock_guard lock(mutex_);
   for (size_t n = 0; n < samples.size(); ++n) {
-    const DataSample& sample = samples[n];
+    if (!samples[n]) {
+      continue;
+    }
+    const DataSample& sample = *samples[n];
     const size_t pixel = first + n;
     const bool is_first = counts_[pixel]++ == 0;
     for (size_t i = 0; i < kDataPassCount; ++i) {
-      const auto channels = static_cast<size_t>(kDataPasses[i].channels);
+      const size_t kept = kDataPasses[i].kept();
       if (choice_.passes[i] && (is_first || !kDataPasses[i].first)) {
-        for (size_t c = 0; c < channels; ++c) {
-          passes_[i][pixel * channels + c] += sample.values[i][c];
+        for (size_t k = 0; k < kept; ++k) {
+          passes_[i][pixel * kept + k] += sample.values[i][k];
         }
       }
     }
@@ -113,14 +116,16 @@ Image DataFilm::develop(const std::string& name) const {
 }
 
 Image DataFilm::develop_pass(size_t pass) const {
-  const auto channels = static_cast<size_t>(kDataPasses[pass].channels);
-  Image image(rect_.width(), rect_.height(), kDataPasses[pass].channels);
+  const DataPassInfo& info = kDataPasses[pass];
+  const auto channels = static_cast<size_t>(info.channels);
+  Image image(rect_.width(), rect_.height(), info.channels);
   const std::lock_guard lock(mutex_);
   for (size_t pixel = 0; pixel < counts_.size(); ++pixel) {
-    const bool mean = !kDataPasses[pass].first && counts_[pixel] > 0;
-    const float scale = mean ? 1.0f / static_cast<float>(counts_[pixel]) : 1.0f;
+    const float* sums = &passes_[pass][pixel * info.kept()];
+    const float samples = info.seen ? sums[channels] : static_cast<float>(counts_[pixel]);
+    const float scale = !info.first && samples > 0.0f ? 1.0f / samples : 1.0f;
     for (size_t c = 0; c < channels; ++c) {
-      float value = scale * passes_[pass][pixel * channels + c];
+      float value = scale * sums[c];
       switch (static_cast<DataPass>(pass)) {
         case DataPass::Depth:
           value = value == 0.0f ? kNothing : value;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ enum class DataPass : uint8_t {
   MaterialIndex,
   Normal,
   Uv,
+  Vector,
   Mist,
   DenoisingAlbedo,
   DenoisingNormal,
@@ -31,6 +33,10 @@ struct DataPassInfo {
   const char* name;
   int channels;
   bool first;  // what the first sample of a pixel sees: means would make no sense
+  bool seen = false;  // the mean over the samples that see a surface, not over all
+
+  // Numbers that the film keeps.
+  constexpr size_t kept() const { return static_cast<size_t>(channels) + (seen ? 1 : 0); }
 };
 inline constexpr DataPassInfo kDataPasses[] = {{"Depth", 1, true},
                                                {"Position", 3, true},
@@ -38,6 +44,7 @@ inline constexpr DataPassInfo kDataPasses[] = {{"Depth", 1, true},
                                                {"IndexMA", 1, true},
                                                {"Normal", 3, false},
                                                {"UV", 3, false},
+                                               {"Vector", 4, false, true},
                                                {"Mist", 1, false},
                                                {"Denoising Albedo", 3, false},
                                                {"Denoising Normal", 3, false},
@@ -71,7 +78,7 @@ struct DataChoice {
 
 // What one camera sample sees. What it does not see is as it is here.
 struct DataSample {
-  float values[kDataPassCount][3] = {};
+  float values[kDataPassCount][5] = {};
   struct Matte {
     float ids[kMatteKinds];
     float weight;
@@ -81,6 +88,11 @@ struct DataSample {
   void set(DataPass pass, vec3 value) {
     float* to = values[static_cast<size_t>(pass)];
     to[0] = value.x, to[1] = value.y, to[2] = value.z;
+  }
+  // Of a surface that is seen.
+  void set_seen(DataPass pass, vec4 value) {
+    float* to = values[static_cast<size_t>(pass)];
+    to[0] = value.x, to[1] = value.y, to[2] = value.z, to[3] = value.w, to[4] = 1.0f;
   }
   void set(DataPass pass, float value) { values[static_cast<size_t>(pass)][0] = value; }
 };
@@ -96,8 +108,8 @@ class DataFilm {
 
   const DataChoice& choice() const { return choice_; }
 
-  // Adds one sample to each of the pixels from `first` on. May be called from any thread.
-  void add(size_t first, std::span<const DataSample> samples);
+  // Adds one sample, or none, to each of the pixels from `first` on. May be called from any thread.
+  void add(size_t first, std::span<const std::optional<DataSample>> samples);
 
   // The picture of that name (DataChoice::names()) so far. May be called from any thread.
   Image develop(const std::string& name) const;
@@ -112,7 +124,7 @@ class DataFilm {
   DataChoice choice_;
   mutable std::mutex mutex_;  // guards all below
   std::vector<uint32_t> counts_;
-  std::vector<float> passes_[kDataPassCount];  // of those that are wanted, channels in a row
+  std::vector<float> passes_[kDataPassCount];  // of those that are wanted, what is kept in a row
   std::vector<Coverage> mattes_[kMatteKinds];
 };
 

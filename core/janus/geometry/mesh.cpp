@@ -96,14 +96,15 @@ Mesh::Mesh(const std::string& key, MeshDesc&& desc) : name_(desc.name.empty() ? 
   }
   std::vector<AttributeDesc> attributes = desc.attributes;
   derive_attributes(key, desc, attributes);
-  attributes_ = std::move(attributes);
+  auto topology = std::make_shared<Topology>();
+  topology->attributes = std::move(attributes);
   const auto kept_by = [&](AttributeDomain domain) {
-    return std::any_of(attributes_.begin(), attributes_.end(),
+    return std::any_of(topology->attributes.begin(), topology->attributes.end(),
                        [&](const AttributeDesc& a) { return a.domain == domain; });
   };
   const bool by_corner = kept_by(AttributeDomain::Corner), by_face = kept_by(AttributeDomain::Face);
 
-  triangles_.reserve(desc.triangles.size());
+  topology->triangles.reserve(desc.triangles.size());
   size_t dropped = 0;
   for (size_t i = 0; i < desc.triangles.size(); ++i) {
     Triangle triangle{};
@@ -116,15 +117,15 @@ Mesh::Mesh(const std::string& key, MeshDesc&& desc) : name_(desc.name.empty() ? 
     }
     triangle.material = desc.material_indices.empty() ? 0 : desc.material_indices[i];
     if (finite) {
-      triangles_.push_back(triangle);
+      topology->triangles.push_back(triangle);
       for (const uint32_t v : triangle.v) {
         bounds_.extend(desc.positions[v]);
       }
       if (by_corner) {
-        corners_.push_back(desc.triangles[i]);
+        topology->corners.push_back(desc.triangles[i]);
       }
       if (by_face) {
-        faces_.push_back(desc.faces.empty() ? static_cast<uint32_t>(i) : desc.faces[i]);
+        topology->faces.push_back(desc.faces.empty() ? static_cast<uint32_t>(i) : desc.faces[i]);
       }
     } else {
       ++dropped;
@@ -137,12 +138,62 @@ Mesh::Mesh(const std::string& key, MeshDesc&& desc) : name_(desc.name.empty() ? 
   }
   normals_ = std::move(desc.vertex_normals.empty() ? desc.corner_normals : desc.vertex_normals);
   positions_ = std::move(desc.positions);
+  take_motion(key, std::move(desc.motion));
   positions_.emplace_back(0.0f);
+  topology_ = std::move(topology);
   desc = {};
 }
 
+void Mesh::take_motion(const std::string& key, std::vector<MeshKey> motion) {
+  if (motion.size() == 1) {
+    throw SceneError(key, "motion", "one time is no motion");
+  }
+  for (size_t i = 0; i < motion.size(); ++i) {
+    const std::string path = "motion[" + std::to_string(i) + "]";
+    if (motion[i].positions.size() != positions_.size() ||
+        motion[i].normals.size() != normals_.size()) {
+      throw SceneError(key, path,
+                       "has " + std::to_string(motion[i].positions.size()) + " positions and " +
+                           std::to_string(motion[i].normals.size()) + " normals, not " +
+                           std::to_string(positions_.size()) + " and " +
+                           std::to_string(normals_.size()));
+    }
+    if (!std::ranges::all_of(motion[i].positions, [](vec3 p) { return is_finite(p); })) {
+      diagnostics_.push_back({Severity::Warning, name_, "", "",
+                              "it has vertices that are not finite at some time of the shutter: it "
+                              "is rendered without deformation"});
+      return;
+    }
+    for (const vec3 p : motion[i].positions) {
+      bounds_.extend(p);
+    }
+  }
+  motion_ = std::move(motion);
+}
+
+std::shared_ptr<const Mesh> Mesh::at(float time) const {
+  const KeyTime key(time, motion_.size());
+  const MeshKey &a = motion_[key.first], &b = motion_[key.first + 1];
+  const float t = key.share;
+  const std::shared_ptr<Mesh> mesh(new Mesh);
+  mesh->name_ = name_;
+  mesh->bounds_ = bounds_;
+  mesh->topology_ = topology_;
+  mesh->positions_.resize(positions_.size());
+  for (size_t i = 0; i < a.positions.size(); ++i) {
+    mesh->positions_[i] = (1.0f - t) * a.positions[i] + t * b.positions[i];
+  }
+  mesh->normals_.resize(normals_.size());
+  for (size_t i = 0; i < a.normals.size(); ++i) {
+    const vec3 n = (1.0f - t) * a.normals[i] + t * b.normals[i];
+    const float length = glm::length(n);
+    mesh->normals_[i] = length > 0.0f ? n / length : n;
+  }
+  return mesh;
+}
+
 vec3 Mesh::interpolated_normal(uint32_t primitive, vec2 b) const {
-  const Triangle& t = triangles_[primitive];
+  const Triangle& t = triangles()[primitive];
   if (!smooth()) {
     const vec3 n =
         cross(positions_[t.v[1]] - positions_[t.v[0]], positions_[t.v[2]] - positions_[t.v[0]]);
@@ -155,23 +206,23 @@ vec3 Mesh::interpolated_normal(uint32_t primitive, vec2 b) const {
 
 void Mesh::corner_normals(uint32_t primitive, vec3 (&normals)[3]) const {
   for (int k = 0; k < 3; ++k) {
-    normals[k] = smooth() ? normals_[triangles_[primitive].normal[k]] : vec3(0.0f);
+    normals[k] = smooth() ? normals_[triangles()[primitive].normal[k]] : vec3(0.0f);
   }
 }
 
 const AttributeDesc* Mesh::attribute(const std::string& key) const {
-  const auto found = std::find_if(attributes_.begin(), attributes_.end(),
-                                  [&](const AttributeDesc& a) { return a.key == key; });
-  return found == attributes_.end() ? nullptr : &*found;
+  const std::vector<AttributeDesc>& attributes = topology_->attributes;
+  const auto found = std::ranges::find(attributes, key, &AttributeDesc::key);
+  return found == attributes.end() ? nullptr : &*found;
 }
 
 TriangleIndices Mesh::indices(uint32_t primitive) const {
   TriangleIndices result{};
   for (int k = 0; k < 3; ++k) {
-    result.vertices[k] = triangles_[primitive].v[k];
-    result.corners[k] = corners_.empty() ? 0 : corners_[primitive][k];
+    result.vertices[k] = triangles()[primitive].v[k];
+    result.corners[k] = topology_->corners.empty() ? 0 : topology_->corners[primitive][k];
   }
-  result.face = faces_.empty() ? primitive : faces_[primitive];
+  result.face = topology_->faces.empty() ? primitive : topology_->faces[primitive];
   return result;
 }
 

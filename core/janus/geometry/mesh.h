@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "janus/geometry/motion.h"
 #include "janus/math/vec.h"
 #include "janus/scene/description.h"
 #include "janus/scene/diagnostics.h"
@@ -26,12 +27,17 @@ class Mesh {
   // range or arrays of wrong length; drops triangles with non-finite vertices and says so.
   Mesh(const std::string& key, MeshDesc&& desc);
 
+  // Does it change its form while the shutter is open?
+  bool moves() const { return !motion_.empty(); }
+  // As it is at a time: a mesh that stands still, with the same triangles. Only if moves().
+  std::shared_ptr<const Mesh> at(float time) const;
+
   const std::string& name() const { return name_; }
   // What was not as asked.
   const Diagnostics& diagnostics() const { return diagnostics_; }
-  const Bounds& bounds() const { return bounds_; }  // of the triangles
+  const Bounds& bounds() const { return bounds_; }  // of the triangles, at all times
   const std::vector<vec3>& positions() const { return positions_; }
-  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const std::vector<Triangle>& triangles() const { return topology_->triangles; }
   bool smooth() const { return !normals_.empty(); }
   const std::vector<vec3>& normals() const { return normals_; }  // of triangles; empty: flat
   // Of the corners' normals, or of the triangle; not of unit length.
@@ -43,15 +49,24 @@ class Mesh {
   TriangleIndices indices(uint32_t primitive) const;
 
  private:
+  // What does not change with time.
+  struct Topology {
+    std::vector<Triangle> triangles;
+    std::vector<AttributeDesc> attributes;
+    std::vector<glm::uvec3> corners;  // by triangle; empty: nothing is kept by corner
+    std::vector<uint32_t> faces;      // by triangle; empty: nothing is kept by face
+  };
+
+  Mesh() = default;
+  void take_motion(const std::string& key, std::vector<MeshKey> motion);
+
   std::string name_;
   Diagnostics diagnostics_;
   Bounds bounds_;
   std::vector<vec3> positions_;  // one more than used: Embree reads 16 bytes at the last vertex
-  std::vector<Triangle> triangles_;
   std::vector<vec3> normals_;
-  std::vector<AttributeDesc> attributes_;
-  std::vector<glm::uvec3> corners_;  // by triangle; empty: nothing is kept by corner
-  std::vector<uint32_t> faces_;      // by triangle; empty: nothing is kept by face
+  std::shared_ptr<const Topology> topology_;
+  std::vector<MeshKey> motion_;
 };
 
 // Scenes of one builder share the meshes that have not changed.
@@ -62,6 +77,7 @@ struct Instance {
   uint32_t mesh = 0;
   mat4 to_world = mat4(1.0f);
   mat3 normal_to_world = mat3(1.0f);  // inverse transpose
+  std::shared_ptr<const Motion> motion;  // null: it stands still
   std::vector<uint32_t> materials;    // index in Surfaces by slot; never empty
   int light = -1;                     // index of the mesh light, or -1
   bool opaque = true;                 // false: rays may pass through parts of it (see Accel)

@@ -6,14 +6,14 @@
 namespace janus {
 
 uint32_t Surfaces::add_program(Program program, const std::string& material, float material_index) {
-  any_delta_ = any_delta_ || !program.constant() ||
+  shared_->any_delta = shared_->any_delta || !program.constant() ||
                std::any_of(program.lobes.begin(), program.lobes.end(), is_delta);
-  programs_.push_back(std::make_unique<const Program>(std::move(program)));
-  if (material_names_.empty() || material_names_.back() != material) {
-    material_names_.push_back(material);
+  shared_->programs.push_back(std::make_unique<const Program>(std::move(program)));
+  if (shared_->material_names.empty() || shared_->material_names.back() != material) {
+    shared_->material_names.push_back(material);
   }
-  surfaces_.push_back({programs_.back().get(), nullptr, material_index,
-                       static_cast<uint32_t>(material_names_.size() - 1)});
+  surfaces_.push_back({shared_->programs.back().get(), nullptr, material_index,
+                       static_cast<uint32_t>(shared_->material_names.size() - 1)});
   return static_cast<uint32_t>(surfaces_.size() - 1);
 }
 
@@ -29,7 +29,7 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
       read.insert(read.end(), &found->second.x, &found->second.x + 4);
     }
   }
-  const auto [entry, fresh] = bound_.try_emplace({surface, &mesh, std::move(read)}, 0);
+  const auto [entry, fresh] = shared_->bound.try_emplace({surface, &mesh, std::move(read)}, 0);
   if (fresh) {
     auto slots = std::make_unique<const AttributeDesc*[]>(program.attributes.size());
     const auto find = [&](const std::string& key) {
@@ -38,14 +38,14 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
         return mesh.attribute(key);
       }
       const float* first = &found->second.x;
-      own_.push_back(std::make_unique<const AttributeDesc>(
+      shared_->own.push_back(std::make_unique<const AttributeDesc>(
           AttributeDesc{key, AttributeDomain::Mesh, 4, {first, first + 4}}));
-      return own_.back().get();
+      return shared_->own.back().get();
     };
     std::transform(program.attributes.begin(), program.attributes.end(), slots.get(), find);
     entry->second = static_cast<uint32_t>(surfaces_.size());
     surfaces_.push_back({&program, slots.get(), material_index(surface), material(surface)});
-    attributes_.push_back(std::move(slots));
+    shared_->attributes.push_back(std::move(slots));
   }
   return entry->second;
 }
@@ -53,11 +53,13 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
 void Surfaces::set_objects(const MeshList& meshes, const std::vector<Instance>& instances,
                            const CameraView& camera, const PixelFootprint& footprint) {
   footprint_ = footprint;
-  const bool needed = std::any_of(programs_.begin(), programs_.end(),
+  const bool needed = std::any_of(shared_->programs.begin(), shared_->programs.end(),
                                   [](const auto& program) { return !program->constant(); });
   if (!needed) {
     return;
   }
+  objects_.clear();
+  meshes_.clear();
   for (const Instance& instance : instances) {
     ObjectData data;
     data.to_world = instance.to_world;

@@ -22,20 +22,21 @@ struct PixelFootprint {
   float width = 0.0f;  // and metres at any distance
 };
 
+// Copies share the programs, and may see other objects.
 class Surfaces {
  public:
   // A program of a material and its pass index; its number.
   uint32_t add_program(Program program, const std::string& material, float material_index = 0.0f);
   const Program& program(uint32_t surface) const { return *surfaces_[surface].program; }
   // Programs, the default surface included.
-  size_t size() const { return programs_.size(); }
+  size_t size() const { return shared_->programs.size(); }
   // What passes of data tell apart: the material of a surface, as a number in material_names(), and
   // its pass index.
   uint32_t material(uint32_t surface) const { return surfaces_[surface].material; }
   float material_index(uint32_t surface) const { return surfaces_[surface].material_index; }
-  const std::vector<std::string>& material_names() const { return material_names_; }
+  const std::vector<std::string>& material_names() const { return shared_->material_names; }
   // Can some surface reflect or refract without blur?
-  bool any_delta() const { return any_delta_; }
+  bool any_delta() const { return shared_->any_delta; }
   // The number of a program's surface on a mesh, which has attributes for it or not, in an instance
   // with attributes of its `own`. The mesh must not move from then on.
   uint32_t bind(uint32_t program, const Mesh& mesh, const std::map<std::string, vec4>& own = {});
@@ -75,17 +76,20 @@ class Surfaces {
     float material_index;
     uint32_t material;
   };
-  std::vector<std::unique_ptr<const Program>> programs_;
-  std::vector<std::string> material_names_;
+  struct Shared {
+    std::vector<std::unique_ptr<const Program>> programs;
+    std::vector<std::string> material_names;
+    std::vector<std::unique_ptr<const AttributeDesc*[]>> attributes;
+    // By program, mesh, and what it reads of the instance.
+    std::map<std::tuple<uint32_t, const Mesh*, std::vector<float>>, uint32_t> bound;
+    std::vector<std::unique_ptr<const AttributeDesc>> own;  // of instances
+    bool any_delta = false;
+  };
+  std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   std::vector<Surface> surfaces_;  // those of add_program(), then those of bind()
-  std::vector<std::unique_ptr<const AttributeDesc*[]>> attributes_;
-  // By program, mesh, and what it reads of the instance.
-  std::map<std::tuple<uint32_t, const Mesh*, std::vector<float>>, uint32_t> bound_;
-  std::vector<std::unique_ptr<const AttributeDesc>> own_;  // of instances
   std::vector<ObjectData> objects_;
   std::vector<const Mesh*> meshes_;  // by instance
   PixelFootprint footprint_;
-  bool any_delta_ = false;
 };
 
 }  // namespace janus

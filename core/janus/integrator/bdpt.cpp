@@ -11,8 +11,8 @@
 //
 // Pixels that see smooth glass or a mirror have additional walks: specular_walks.h.
 //
-// To bound the cache, a pass runs in waves: a range of its light paths with a cache of their own,
-// then an interleaved subset of its pixels.
+// To bound the cache, waves run in parts: a range of light paths with a cache of their own, then an
+// interleaved subset of the pixels.
 #include "janus/integrator/adaptive_counts.h"
 #include "janus/integrator/bidirectional.h"
 #include "janus/integrator/merging.h"
@@ -32,7 +32,7 @@ class Bdpt final : public BidirectionalIntegrator {
   Bdpt(const RenderContext& context, const IntegratorSettings& settings)
       : BidirectionalIntegrator(context, settings),
         effort_{settings.light_paths, settings.connections},
-        merging_(settings.merge_radius, context.scene.accel->bounds()),
+        merging_(settings.merge_radius, context.scene().accel->bounds()),
         specular_walks_(context.film.rect()),
         specular_(settings.walk) {
     specular_.specular = true;
@@ -46,36 +46,48 @@ class Bdpt final : public BidirectionalIntegrator {
     }
   }
 
-  void render_pass(int pass) override {
-    // Without light paths this is path tracing, at its cost.
-    if (light_paths_ == 0 && path_tracer_) {
-      path_tracer_->render_pass(pass);
+  void begin_pass(int pass) override {
+    if (only_traces_paths()) {
       return;
     }
     if (settings_.contribution_roulette && !plain()) {
       roulette_.update(context_.film, pass);
     }
-    const bool measure = pass == kMeasuredPass && adapts();
-    if (measure) {
+    if (pass == kMeasuredPass && adapts()) {
       meter_.emplace(counts_);
     }
     if (walks_more()) {
       specular_walks_.begin_pass(pass, work_);
     }
-    const Counters before = counters();
+    before_ = counters();
     if (merges()) {
       merging_.begin_pass(pass);
-      counts_.merge = merging_.count(static_cast<float>(light_paths_) / static_cast<float>(waves_));
+      counts_.merge =
+          merging_.count(static_cast<float>(light_paths_) / static_cast<float>(waves()));
       renew_weights();
     }
-    for (size_t wave = 0; wave < waves_; ++wave) {
-      trace_lights(wave);
-      trace_camera(pass, wave);
+  }
+
+  void render_wave(const Wave& wave) override {
+    if (only_traces_paths()) {
+      path_tracer_->render_wave(wave);
+      return;
+    }
+    for (size_t i = 0; i < parts_; ++i) {
+      const Wave part = wave.part(i, parts_);
+      trace_lights(part);
+      trace_camera(part);
+    }
+  }
+
+  void end_pass() override {
+    if (only_traces_paths()) {
+      return;
     }
     first_light_path_ += light_paths_;
     work_ = counters();
-    work_ -= before;
-    if (measure) {
+    work_ -= before_;
+    if (meter_) {
       adapt(work_);
     }
   }
@@ -96,21 +108,24 @@ class Bdpt final : public BidirectionalIntegrator {
            light_paths_ > 0 && counts_.connection > 0.0f;
   }
 
+  // Without light paths this is path tracing, at its cost.
+  bool only_traces_paths() const { return light_paths_ == 0 && path_tracer_; }
+
   // Are the strategies to be seen as they are?
   bool plain() const { return settings_.strategies || settings_.layers.longest > 0; }
 
   // Is there light for specular walks to find?
   bool walks_more() const {
-    return context_.scene.surfaces.any_delta() && !plain() &&
-           std::ranges::any_of(context_.scene.lights, [](const auto& l) { return l->hittable(); });
+    return context_.scene().surfaces.any_delta() && !plain() &&
+           std::ranges::any_of(context_.scene().lights, [](const auto& l) { return l->hittable(); });
   }
 
   bool merges() const { return merging_.used() && light_paths_ > 0 && !plain(); }
 
   // Are there paths that camera walks cannot make? A light that cannot be hit, behind a delta.
   bool needs_light_paths() const {
-    return context_.scene.surfaces.any_delta() &&
-           std::ranges::any_of(context_.scene.lights, [](const auto& l) { return !l->hittable(); });
+    return context_.scene().surfaces.any_delta() &&
+           std::ranges::any_of(context_.scene().lights, [](const auto& l) { return !l->hittable(); });
   }
 
   void adapt(const Counters& work) {
@@ -123,21 +138,29 @@ class Bdpt final : public BidirectionalIntegrator {
 
   void set_effort(const Effort& effort) {
     effort_ = effort;
+    // A wave without light paths would leave its pixels without connections.
     light_paths_ = light_path_count(effort.light_paths);
+    if (light_paths_ > 0) {
+      light_paths_ = std::max(light_paths_, context_.exposure.times());
+    }
     counts_.splat = static_cast<float>(light_paths_);
     const bool connect =
         light_paths_ > 0 && effort.connections > 0.0f && cached_path_.vertices > 0.0f;
     counts_.connection = connect ? effort.connections / cached_path_.vertices : 0.0f;
     const double pass_bytes =
         connect || merges() ? cached_path_.bytes * static_cast<double>(light_paths_) : 0.0;
-    // A wave without light paths would leave its pixels without connections.
-    waves_ = std::min(1 + static_cast<size_t>(1.1 * pass_bytes / settings_.cache_bytes),
-                      std::max<size_t>(1, light_paths_ / kLightBlock));
+    const double wave_bytes = pass_bytes / static_cast<double>(context_.exposure.times());
+    const size_t wave_paths = light_paths_ / context_.exposure.times();
+    parts_ = std::min(1 + static_cast<size_t>(1.1 * wave_bytes / settings_.cache_bytes),
+                      std::max<size_t>(1, wave_paths / kLightBlock));
     renew_weights();
   }
 
-  void trace_lights(size_t wave) {
-    const size_t begin = light_paths_ * wave / waves_, end = light_paths_ * (wave + 1) / waves_;
+  // Of a pass.
+  size_t waves() const { return context_.exposure.times() * parts_; }
+
+  void trace_lights(const Wave& wave) {
+    const size_t begin = wave.begin(light_paths_), end = wave.end(light_paths_);
     wave_paths_ = end - begin;
     const size_t blocks = (wave_paths_ + kLightBlock - 1) / kLightBlock;
     const float margin = context_.film.filter().radius();
@@ -152,7 +175,7 @@ class Bdpt final : public BidirectionalIntegrator {
       const size_t block_end = std::min(end, begin + (block + 1) * kLightBlock);
       for (size_t i = begin + block * kLightBlock; i < block_end; ++i) {
         Sampler sampler(settings_.seed, Stream::Light, 0, first_light_path_ + i);
-        trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, counters,
+        trace_light_subpath(context_.scene(), mis_, settings_.walk, sampler, counters,
                             [&](const PathVertex& v, Sampler& walk) {
                               splat(v, static_cast<float>(light_paths_), roulette_, margin, walk,
                                     block, counters, [&](vec2 raster, Rgb value, const auto& w) {
@@ -175,15 +198,15 @@ class Bdpt final : public BidirectionalIntegrator {
     }
   }
 
-  void trace_camera(int pass, size_t wave) {
+  void trace_camera(const Wave& wave) {
     const size_t width = context_.film.rect().width();
     std::vector<AdaptiveCounts::Moments> moments(meter_ ? context_.film.rect().height() : 1);
     for_each_row([&](size_t row, Counters& counters) {
       AdaptiveCounts::Gauge previous;
       for (size_t x = 0; x < width; ++x) {
-        if (waves_ == 1 || (x + 3 * row) % waves_ == wave) {
-          previous =
-              trace_pixel(row * width + x, pass, previous, moments[meter_ ? row : 0], counters);
+        if (wave.includes(x, row)) {
+          previous = trace_pixel(row * width + x, wave.pass, previous, moments[meter_ ? row : 0],
+                                 counters);
         }
       }
     });
@@ -214,7 +237,7 @@ class Bdpt final : public BidirectionalIntegrator {
     AdaptiveCounts::Gauge meter = gauge(raster, moments);
     Sample sample{index};
     const float alpha = trace_camera_subpath(
-        context_.scene, context_.camera, raster, mis_, settings_.walk, sampler, counters,
+        context_.scene(), context_.camera(), raster, mis_, settings_.walk, sampler, counters,
         [&](const LightFound& found) {
           const Rgb value = gather_light(found, found.specular ? share : 1.0f, sample, counters);
           if (found.edges > 1) {  // straight into the light: the same whatever the counts
@@ -266,7 +289,7 @@ class Bdpt final : public BidirectionalIntegrator {
     const vec2 raster = context_.film.sample_position(sample.index, sampler.next_2d());
     Counters walked;
     trace_camera_subpath(
-        context_.scene, context_.camera, raster, mis_, specular_, sampler, walked,
+        context_.scene(), context_.camera(), raster, mis_, specular_, sampler, walked,
         [&](const LightFound& found) {
           if (found.specular) {
             gather_light(found, share, sample, counters);
@@ -303,7 +326,7 @@ class Bdpt final : public BidirectionalIntegrator {
 
   void check(vec2 raster, size_t index, int pass) {
     const WeightCheck result =
-        check_weights(context_.scene, context_.camera, raster, settings_.heuristic, counts_,
+        check_weights(context_.scene(), context_.camera(), raster, settings_.heuristic, counts_,
                       settings_.walk, settings_.seed + pass, index);
     const std::lock_guard lock(check_mutex_);
     weight_error_ = std::max(weight_error_, result.max_error);
@@ -314,13 +337,15 @@ class Bdpt final : public BidirectionalIntegrator {
   size_t light_paths_ = 0;                   // of a pass
   uint64_t first_light_path_ = 0;            // of the pass, among all
   CachedPath cached_path_;
-  size_t waves_ = 1, wave_paths_ = 0;
+  size_t parts_ = 1;       // of each wave, so that the cache stays small
+  size_t wave_paths_ = 0;  // light paths of the present part
   std::optional<AdaptiveCounts> meter_;  // while the counts are measured
   AdaptiveCounts::Moments moments_;
   VertexCache cache_;
   Merging merging_;
   SpecularWalks specular_walks_;
   WalkSettings specular_;
+  Counters before_;         // the pass that runs
   Counters work_;           // of the pass before
   size_t cache_bytes_ = 0;  // the largest so far
   RouletteMap roulette_;

@@ -48,7 +48,7 @@ class BidirectionalIntegrator : public PassIntegrator {
     }
     ++rays;
     const Rgb arrived =
-        value * context_.scene.transmittance(c.from, c.to, c.type, crossings, c.camera);
+        value * context_.scene().transmittance(c.from, c.to, c.type, crossings, c.camera);
     return settings_.clamp(arrived, edges) * scale;
   }
 
@@ -91,12 +91,12 @@ class BidirectionalIntegrator : public PassIntegrator {
   // s=1. Returns what was added, and sets `found`.
   Rgb gather_next_event(const PathVertex& v, const Roulette& roulette, Sampler& sampler,
                         Sample& sample, Counters& counters, MisWeight& found) {
-    if (!settings_.next_event || !context_.scene.light_sampler.illuminates()) {
+    if (!settings_.next_event || !context_.scene().light_sampler.illuminates()) {
       return Rgb(0.0f);
     }
     UnreadVertices unread;
     const auto nee =
-        connect_to_light(context_.scene, v, mis_, settings_.walk, sampler, reads(unread));
+        connect_to_light(context_.scene(), v, mis_, settings_.walk, sampler, reads(unread));
     if (!nee) {
       return Rgb(0.0f);
     }
@@ -151,7 +151,7 @@ class BidirectionalIntegrator : public PassIntegrator {
   void splat(const PathVertex& v, float light_paths, const RouletteMap& roulettes, float margin,
              Sampler& sampler, size_t block, Counters& counters, OnSplat&& on_splat) {
     UnreadVertices unread;
-    const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_,
+    const auto s = connect_to_camera(v, context_.camera(), sampler.next_2d(), margin, mis_,
                                      settings_.walk, reads(unread));
     if (!s) {
       return;

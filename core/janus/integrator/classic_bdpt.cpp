@@ -23,18 +23,16 @@ class ClassicBdpt final : public BidirectionalIntegrator {
     renew_weights();
   }
 
-  void render_pass(int pass) override {
-    const size_t width = context_.film.rect().width();
+  void render_wave(const Wave& wave) override {
     splats_.start(context_.film.rect().height());
-    for_each_row([&](size_t row, Counters& counters) {
-      CacheBlock light_path;
-      for (size_t i = row * width; i < (row + 1) * width; ++i) {
-        light_path.clear();
-        if (light_paths_ > 0) {
-          trace_light_path(i, pass, row, light_path, counters);
-        }
-        trace_camera_path(i, pass, light_path, counters);
+    std::vector<CacheBlock> light_paths(context_.film.rect().height());
+    for_each_pixel(wave, [&](size_t i, size_t row, Counters& counters) {
+      CacheBlock& light_path = light_paths[row];
+      light_path.clear();
+      if (light_paths_ > 0) {
+        trace_light_path(i, wave.pass, row, light_path, counters);
       }
+      trace_camera_path(i, wave.pass, light_path, counters);
     });
     splats_.add_to(context_.film, context_.pool);
   }
@@ -48,7 +46,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
     const float margin = context_.film.filter().radius();
     Sampler sampler(settings_.seed, Stream::Light, 0,
                     static_cast<uint64_t>(pass) * light_paths_ + index);
-    trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, counters,
+    trace_light_subpath(context_.scene(), mis_, settings_.walk, sampler, counters,
                         [&](const PathVertex& v, Sampler& walk) {
                           splat(v, counts_.splat, roulettes_, margin, walk, row, counters,
                                 [](vec2, Rgb, const MisWeight&) {});
@@ -65,7 +63,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
     const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
     Sample sample{index};
     const float alpha = trace_camera_subpath(
-        context_.scene, context_.camera, raster, mis_, settings_.walk, sampler, counters,
+        context_.scene(), context_.camera(), raster, mis_, settings_.walk, sampler, counters,
         [&](const LightFound& found) { gather_light(found, 1.0f, sample, counters); },
         [&](const PathVertex& v, Sampler& walk) {
           see(v, index);

@@ -4,6 +4,8 @@
 #include <functional>
 
 #include "janus/integrator/pass.h"
+#include "janus/integrator/picture_motion.h"
+#include "janus/render/time_slice.h"
 #include "janus/shading/features.h"
 
 namespace janus {
@@ -22,25 +24,31 @@ class DataPasses final : public PassIntegrator {
       : PassIntegrator(context, settings),
         data_(data),
         film_(film),
-        choice_(film.choice()),
-        view_(view_of(context.scene.camera)),
-        eye_(context.scene.camera.transform[3]),
-        forward_(-vec3(context.scene.camera.transform[2])) {
-    for (const std::string& name : context.scene.surfaces.material_names()) {
+        choice_(film.choice()) {
+    for (const std::string& name : context.scene().surfaces.material_names()) {
       material_ids_.push_back(id_of(name));
     }
-    for (const Instance& instance : context.scene.instances) {
+    for (const Instance& instance : context.scene().instances) {
       object_ids_.push_back(id_of(instance.name));
       asset_ids_.push_back(id_of(instance.asset.empty() ? instance.name : instance.asset));
     }
+    if (choice_.wants(DataPass::Vector) && moves(*context.exposure.timeless())) {
+      motion_.emplace(context.exposure, context.cancel);
+    }
   }
 
-  void render_pass(int pass) override {
+  void render_wave(const Wave& wave) override {
+    const CameraDesc& camera = context_.scene().camera;
+    view_ = view_of(camera);
+    eye_ = vec3(camera.transform[3]);
+    forward_ = -vec3(camera.transform[2]);
     const size_t width = context_.film.rect().width();
     for_each_row([&](size_t row, Counters& counters) {
-      std::vector<DataSample> samples(width);
+      std::vector<std::optional<DataSample>> samples(width);
       for (size_t x = 0; x < width; ++x) {
-        look(row * width + x, pass, samples[x], counters);
+        if (wave.includes(x, row)) {
+          look(row * width + x, wave.pass, samples[x].emplace(), counters);
+        }
       }
       film_.add(row * width, samples);
     });
@@ -53,7 +61,7 @@ class DataPasses final : public PassIntegrator {
     Sampler sampler = camera_sampler(index, pass);
     sampler.start_block(0);
     const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
-    const Ray ray = context_.camera.sample_ray(raster, sampler.next_2d()).ray;
+    const Ray ray = context_.camera().sample_ray(raster, sampler.next_2d()).ray;
     if (choice_.surfaces()) {
       look_straight(ray, sample, counters);
     }
@@ -68,7 +76,7 @@ class DataPasses final : public PassIntegrator {
     bool done = false;  // have the passes that are means got their surface?
     for (int crossings = 0; crossings <= settings_.walk.max_crossings; ++crossings) {
       ++counters.camera_rays;
-      const auto hit = context_.scene.intersect(ray, RayType::Camera);
+      const auto hit = context_.scene().intersect(ray, RayType::Camera);
       if (!hit) {
         if (!done) {
           see_nothing(sample);
@@ -76,8 +84,8 @@ class DataPasses final : public PassIntegrator {
         return;
       }
       const vec3 wo = -ray.direction;
-      const ShadingResult shading = context_.scene.shade(*hit, wo);
-      if (context_.scene.instances[hit->instance].holdout || shading.holdout >= 1.0f) {
+      const ShadingResult shading = context_.scene().shade(*hit, wo);
+      if (context_.scene().instances[hit->instance].holdout || shading.holdout >= 1.0f) {
         if (!done) {
           see_nothing(sample);
         }
@@ -104,13 +112,13 @@ class DataPasses final : public PassIntegrator {
   }
 
   void see_first(const SurfaceInteraction& hit, DataSample& sample) const {
-    const bool panoramic = context_.scene.camera.type == CameraType::Equirectangular;
+    const bool panoramic = context_.scene().camera.type == CameraType::Equirectangular;
     const vec3 p = hit.p;
     sample.set(DataPass::Depth,
                panoramic ? glm::length(p - eye_) : (view_.from_world * vec4(p, 1.0f)).z);
     sample.set(DataPass::Position, p);
-    sample.set(DataPass::ObjectIndex, context_.scene.instances[hit.instance].object_index);
-    sample.set(DataPass::MaterialIndex, context_.scene.surfaces.material_index(hit.material));
+    sample.set(DataPass::ObjectIndex, context_.scene().instances[hit.instance].object_index);
+    sample.set(DataPass::MaterialIndex, context_.scene().surfaces.material_index(hit.material));
   }
 
   static void see_nothing(DataSample& sample) {
@@ -124,7 +132,7 @@ class DataPasses final : public PassIntegrator {
   void see_surface(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo,
                    DataSample& sample) const {
     sample.set(DataPass::Normal, average_normal(bsdf, facing(hit.ns, hit, wo), wo));
-    const Mesh& mesh = *context_.scene.meshes[context_.scene.instances[hit.instance].mesh];
+    const Mesh& mesh = *context_.scene().meshes[context_.scene().instances[hit.instance].mesh];
     if (const AttributeDesc* uv = mesh.attribute("uv:"); uv && choice_.wants(DataPass::Uv)) {
       ShadingPoint point{};
       point.barycentric = hit.barycentric;
@@ -133,12 +141,15 @@ class DataPasses final : public PassIntegrator {
       const vec4 value = point.attribute(0);
       sample.set(DataPass::Uv, vec3(value.x, value.y, 1.0f));
     }
+    if (choice_.wants(DataPass::Vector)) {
+      sample.set_seen(DataPass::Vector, motion_ ? motion_->of(hit) : vec4(0.0f));
+    }
   }
 
   void see_mattes(const SurfaceInteraction& hit, float weight, DataSample& sample) const {
     if (weight > 0.0f && std::ranges::any_of(choice_.mattes, std::identity())) {
       sample.mattes.push_back({{object_ids_[hit.instance],
-                                material_ids_[context_.scene.surfaces.material(hit.material)],
+                                material_ids_[context_.scene().surfaces.material(hit.material)],
                                 asset_ids_[hit.instance]},
                                weight});
     }
@@ -150,7 +161,7 @@ class DataPasses final : public PassIntegrator {
 
   // As Cycles measures it for mist.
   float distance(vec3 p) const {
-    return context_.scene.camera.type == CameraType::Orthographic
+    return context_.scene().camera.type == CameraType::Orthographic
                ? std::abs(dot(p - eye_, forward_))
                : glm::length(p - eye_);
   }
@@ -162,13 +173,13 @@ class DataPasses final : public PassIntegrator {
     RayType type = RayType::Camera;
     for (int steps = 1; steps < settings_.walk.max_edges + settings_.walk.max_crossings; ++steps) {
       ++counters.camera_rays;
-      const auto hit = context_.scene.intersect(ray, type);
+      const auto hit = context_.scene().intersect(ray, type);
       if (!hit) {
         add(sample, DataPass::DenoisingAlbedo, share * background(ray, type));
         return;
       }
       const vec3 wo = -ray.direction;
-      const ShadingResult shading = context_.scene.shade(*hit, wo);
+      const ShadingResult shading = context_.scene().shade(*hit, wo);
       const BsdfView bsdf = shading.bsdf.view(hit->ng, hit->ns);
       const float length = glm::length(hit->p - ray.origin);
       add(sample, DataPass::DenoisingDepth, vec3(average(share) * length));
@@ -201,8 +212,8 @@ class DataPasses final : public PassIntegrator {
   // What shines from infinitely far away.
   Rgb background(const Ray& ray, RayType type) const {
     Rgb sum(0.0f);
-    context_.scene.lamp_index.for_each_on_ray(ray, [&](size_t lamp) {
-      const Light& light = *context_.scene.lights[lamp];
+    context_.scene().lamp_index.for_each_on_ray(ray, [&](size_t lamp) {
+      const Light& light = *context_.scene().lights[lamp];
       if (light.background && contains(light.visibility, type)) {
         const auto hit = light.intersect(Ray{ray.origin, ray.direction, kInfinity});
         sum += hit ? hit->radiance : Rgb(0.0f);
@@ -219,8 +230,9 @@ class DataPasses final : public PassIntegrator {
   DataSettings data_;
   DataFilm& film_;
   DataChoice choice_;
-  CameraView view_;
-  vec3 eye_, forward_;
+  CameraView view_{};
+  vec3 eye_{}, forward_{};
+  std::optional<PictureMotion> motion_;
   std::vector<float> material_ids_, object_ids_, asset_ids_;
 };
 

@@ -5,16 +5,16 @@
 #include <optional>
 #include <string>
 
-#include "janus/camera/camera.h"
 #include "janus/film/film.h"
 #include "janus/integrator/adaptive_counts.h"
 #include "janus/integrator/clamp.h"
 #include "janus/integrator/layers.h"
 #include "janus/integrator/strategies.h"
+#include "janus/integrator/wave.h"
 #include "janus/path/counters.h"
 #include "janus/path/mis.h"
 #include "janus/path/subpath.h"
-#include "janus/render/scene.h"
+#include "janus/render/exposure.h"
 #include "janus/util/cancel.h"
 #include "janus/util/parallel.h"
 
@@ -43,11 +43,14 @@ struct IntegratorSettings {
 
 // What an integrator renders with; everything outlives it.
 struct RenderContext {
-  const Scene& scene;
-  const Camera& camera;
+  const Exposure& exposure;
   Film& film;
   ThreadPool& pool;
   const CancelToken& cancel;
+
+  // What stands before the camera now: for a wave they stay the same.
+  const Scene& scene() const { return exposure.scene(); }
+  const Camera& camera() const { return exposure.camera(); }
 };
 
 // Renders whole passes: one camera sample per pixel, and light paths in proportion.
@@ -55,11 +58,14 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  // Adds pass `pass` to the film, between begin_pass() and end_pass() by the caller; passes come in
-  // order, from 0. Depends on scene, settings and the passes so far. Throws Cancelled.
-  virtual void render_pass(int pass) = 0;
+  // Passes come in order, from 0, each as begin_pass(), all of its waves in order, end_pass().
+  virtual void begin_pass(int pass) { (void)pass; }
+  // Adds a part of the pass to the film, which expects that. Depends on scene, settings and what
+  // was before. Throws Cancelled.
+  virtual void render_wave(const Wave& wave) = 0;
+  virtual void end_pass() {}
 
-  // Over all passes so far. Not while render_pass runs.
+  // Over all passes so far. Not within one.
   virtual Counters counters() const = 0;
 
   // Largest |weight - definition| seen by check_weights, over `paths` joins.

@@ -17,9 +17,9 @@ class LightTracer final : public PassIntegrator {
  public:
   using PassIntegrator::PassIntegrator;
 
-  void render_pass(int pass) override {
-    trace_lights(pass);
-    trace_directly_visible(pass);
+  void render_wave(const Wave& wave) override {
+    trace_lights(wave);
+    trace_directly_visible(wave);
   }
 
  private:
@@ -27,10 +27,11 @@ class LightTracer final : public PassIntegrator {
   const Mis mis_{Heuristic::Balance, SampleCounts{}};
   Splats splats_;
 
-  void trace_lights(int pass) {
-    const size_t count = light_path_count(settings_.light_paths);
+  void trace_lights(const Wave& wave) {
+    const size_t count = light_path_count(settings_.light_paths);  // of the pass
+    const size_t begin = wave.begin(count), end = wave.end(count);
     const float margin = context_.film.filter().radius();
-    const size_t blocks = (count + kLightBlock - 1) / kLightBlock;
+    const size_t blocks = (end - begin + kLightBlock - 1) / kLightBlock;
     splats_.start(blocks);
     context_.pool.parallel_for(blocks, [&](size_t block) {
       context_.cancel.throw_if_cancelled();
@@ -42,17 +43,18 @@ class LightTracer final : public PassIntegrator {
           splats_.add(block, raster, value);
         }
       };
-      const size_t end = std::min(count, (block + 1) * kLightBlock);
-      for (size_t i = block * kLightBlock; i < end; ++i) {
-        Sampler sampler(settings_.seed, Stream::Light, 0, static_cast<uint64_t>(pass) * count + i);
+      const size_t block_begin = begin + block * kLightBlock;
+      for (size_t i = block_begin; i < std::min(end, block_begin + kLightBlock); ++i) {
+        Sampler sampler(settings_.seed, Stream::Light, 0,
+                        static_cast<uint64_t>(wave.pass) * count + i);
         if (settings_.next_event) {
-          trace_light_subpath(context_.scene, mis_, settings_.walk, sampler, counters,
+          trace_light_subpath(context_.scene(), mis_, settings_.walk, sampler, counters,
                               [&](const PathVertex& v, Sampler& walk) {
                                 splat(v, walk, margin, count, counters, add_splat);
                               });
         } else {
           trace_light_subpath(
-              context_.scene, mis_, settings_.walk, sampler, counters,
+              context_.scene(), mis_, settings_.walk, sampler, counters,
               [](const PathVertex&, Sampler&) {},
               [&](const Ray& ray, float t_begin, float t_end, const PathVertex& v) {
                 hit_lens(ray, t_begin, t_end, v, margin, count, counters, add_splat);
@@ -68,7 +70,7 @@ class LightTracer final : public PassIntegrator {
   template <class AddSplat>
   void hit_lens(const Ray& ray, float t_begin, float t_end, const PathVertex& v, float margin,
                 size_t count, Counters& counters, AddSplat&& add_splat) const {
-    const auto lens = context_.camera.hit_lens(ray, t_begin, t_end, margin);
+    const auto lens = context_.camera().hit_lens(ray, t_begin, t_end, margin);
     if (!lens) {
       return;
     }
@@ -93,7 +95,7 @@ class LightTracer final : public PassIntegrator {
   void splat(const PathVertex& v, Sampler& sampler, float margin, size_t count, Counters& counters,
              AddSplat&& add_splat) const {
     UnreadVertices unread;
-    const auto s = connect_to_camera(v, context_.camera, sampler.next_2d(), margin, mis_,
+    const auto s = connect_to_camera(v, context_.camera(), sampler.next_2d(), margin, mis_,
                                      settings_.walk, reads(unread));
     const int crossings = settings_.walk.max_crossings - v.crossings;
     if (!s || crossings < 0 || !usable(s->connection.value, counters)) {
@@ -102,43 +104,40 @@ class LightTracer final : public PassIntegrator {
     ++counters.splat_rays;
     const Connection& c = s->connection;
     const Rgb value =
-        c.value * context_.scene.transmittance(c.from, c.to, c.type, crossings, c.camera);
+        c.value * context_.scene().transmittance(c.from, c.to, c.type, crossings, c.camera);
     if (!is_black(value)) {
       add_splat(s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1),
                 {states(v.trace), camera_state(), unread});
     }
   }
 
-  void trace_directly_visible(int pass) {
-    const size_t width = context_.film.rect().width();
+  void trace_directly_visible(const Wave& wave) {
     WalkSettings walk = settings_.walk;
     if (walk.clear_glass < 0.0f) {  // else alpha needs what is behind glass
       walk.max_edges = settings_.layers.colors ? 2 : 1;
     }
-    for_each_row([&](size_t row, Counters& counters) {
-      for (size_t i = row * width; i < (row + 1) * width; ++i) {
-        Sampler sampler = camera_sampler(i, pass);
-        sampler.start_block(0);
-        const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
-        Rgb sum(0.0f);
-        const float alpha = trace_camera_subpath(
-            context_.scene, context_.camera, raster, mis_, walk, sampler, counters,
-            [&](const LightFound& found) {
-              if (found.edges == 1) {
-                const Rgb value = settings_.clamp(found.beta * found.hit.radiance, 1);
-                sum += value;
-                if (settings_.walk.expressions && is_finite(value)) {
-                  const WeightedState light = light_state(found.light);
-                  const std::span<Rgb> layers = context_.film.layers_at(i);
-                  sort(value, path_of_light(found, light), [&](LayerMask mask, Rgb part) {
-                    mask.for_each([&](size_t layer) { layers[layer] += part; });
-                  });
-                }
+    for_each_pixel(wave, [&](size_t i, size_t, Counters& counters) {
+      Sampler sampler = camera_sampler(i, wave.pass);
+      sampler.start_block(0);
+      const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
+      Rgb sum(0.0f);
+      const float alpha = trace_camera_subpath(
+          context_.scene(), context_.camera(), raster, mis_, walk, sampler, counters,
+          [&](const LightFound& found) {
+            if (found.edges == 1) {
+              const Rgb value = settings_.clamp(found.beta * found.hit.radiance, 1);
+              sum += value;
+              if (settings_.walk.expressions && is_finite(value)) {
+                const WeightedState light = light_state(found.light);
+                const std::span<Rgb> layers = context_.film.layers_at(i);
+                sort(value, path_of_light(found, light), [&](LayerMask mask, Rgb part) {
+                  mask.for_each([&](size_t layer) { layers[layer] += part; });
+                });
               }
-            },
-            [&](const PathVertex& v, Sampler&) { see(v, i); });
-        context_.film.add_sample(i, usable(sum, counters) ? sum : Rgb(0.0f), alpha);
-      }
+            }
+          },
+          [&](const PathVertex& v, Sampler&) { see(v, i); });
+      context_.film.add_sample(i, usable(sum, counters) ? sum : Rgb(0.0f), alpha);
     });
   }
 };

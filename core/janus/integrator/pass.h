@@ -31,7 +31,7 @@ class PassIntegrator : public Integrator {
   }
 
   size_t light_path_count(float per_pixel) const {
-    return context_.scene.light_sampler.emits()
+    return context_.scene().light_sampler.emits()
                ? static_cast<size_t>(per_pixel * context_.film.rect().pixels() + 0.5)
                : 0;
   }
@@ -63,7 +63,7 @@ class PassIntegrator : public Integrator {
     }
     UnreadVertex z_1 = found.trace->vertex();
     if (settings_.walk.ray_types) {
-      z_1.shares = z_1.shares.lit(context_.scene.lights[found.light]->visibility);
+      z_1.shares = z_1.shares.lit(context_.scene().lights[found.light]->visibility);
     }
     return {{&light, 1}, found.trace->before(), UnreadVertices(z_1)};
   }
@@ -86,7 +86,7 @@ class PassIntegrator : public Integrator {
     return Sampler(settings_.seed, stream, y << 32 | x, number);
   }
 
-  // Calls body(pixel index, Counters&) for all pixels of a row.
+  // Calls body(row, Counters&) for all rows.
   template <class Body>
   void for_each_row(Body&& body) {
     context_.pool.parallel_for(context_.film.rect().height(), [&](size_t row) {
@@ -94,6 +94,19 @@ class PassIntegrator : public Integrator {
       Counters counters;
       body(row, counters);
       add(counters);
+    });
+  }
+
+  // Calls body(pixel index, row, Counters&) for the pixels of the wave.
+  template <class Body>
+  void for_each_pixel(const Wave& wave, Body&& body) {
+    const size_t width = context_.film.rect().width();
+    for_each_row([&](size_t row, Counters& counters) {
+      for (size_t x = 0; x < width; ++x) {
+        if (wave.includes(x, row)) {
+          body(row * width + x, row, counters);
+        }
+      }
     });
   }
 

@@ -15,17 +15,14 @@ class PathTracer final : public PassIntegrator {
  public:
   using PassIntegrator::PassIntegrator;
 
-  void render_pass(int pass) override {
-    const size_t width = context_.film.rect().width();
-    for_each_row([&](size_t row, Counters& counters) {
-      for (size_t i = row * width; i < (row + 1) * width; ++i) {
-        Sampler sampler = camera_sampler(i, pass);
-        sampler.start_block(0);
-        const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
-        float alpha = 1.0f;
-        const Rgb value = radiance(raster, sampler, counters, alpha, context_.film.layers_at(i));
-        context_.film.add_sample(i, usable(value, counters) ? value : Rgb(0.0f), alpha);
-      }
+  void render_wave(const Wave& wave) override {
+    for_each_pixel(wave, [&](size_t i, size_t, Counters& counters) {
+      Sampler sampler = camera_sampler(i, wave.pass);
+      sampler.start_block(0);
+      const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
+      float alpha = 1.0f;
+      const Rgb value = radiance(raster, sampler, counters, alpha, context_.film.layers_at(i));
+      context_.film.add_sample(i, usable(value, counters) ? value : Rgb(0.0f), alpha);
     });
   }
 
@@ -63,7 +60,7 @@ class PathTracer final : public PassIntegrator {
 
   // Light of source `index` found on the way.
   Rgb found(const Walk& walk, size_t index, const LightHit& hit) const {
-    const Light& light = *context_.scene.lights[index];
+    const Light& light = *context_.scene().lights[index];
     if ((walk.edges == 1 && !contains(light.visibility, RayType::Camera)) ||
         (walk.clear && left_out(light))) {
       return Rgb(0.0f);
@@ -81,7 +78,7 @@ class PathTracer final : public PassIntegrator {
     if (settings_.walk.ray_types && walk.edges > 1) {
       lit = seen(light, walk.diffuse, walk.rest, walk.transmitted);
     }
-    const LightSampler& lights = context_.scene.light_sampler;
+    const LightSampler& lights = context_.scene().light_sampler;
     const float pdf_nee =
         walk.delta || !settings_.next_event
             ? 0.0f
@@ -110,7 +107,7 @@ class PathTracer final : public PassIntegrator {
   // still does. Empty: the path may go on.
   void hold_out(const SurfaceInteraction& hit, const Walk& walk, ShadingResult& shading,
                 float& alpha) const {
-    if (context_.scene.instances[hit.instance].holdout) {
+    if (context_.scene().instances[hit.instance].holdout) {
       alpha -= average(walk.beta * (Rgb(1.0f) - shading.transparency));
       shading.emission = Rgb(0.0f);
       shading.bsdf.clear();
@@ -137,12 +134,12 @@ class PathTracer final : public PassIntegrator {
   // the walk sees other things than they do, it takes a ray of its own for that.
   bool looks_apart(const Walk& walk) const {
     return settings_.walk.ray_types && walk.edges > 1 && !walk.delta &&
-           (context_.scene.has_unblocked ||
-            !context_.scene.accel->alike(walk.type, RayType::Shadow));
+           (context_.scene().has_unblocked ||
+            !context_.scene().accel->alike(walk.type, RayType::Shadow));
   }
 
   Rgb lights_ahead(Walk walk, Counters& counters) const {
-    const Scene& scene = context_.scene;
+    const Scene& scene = context_.scene();
     const vec3 d = walk.ray.direction;
     Rgb sum(0.0f);
     walk.through = Rgb(1.0f);
@@ -184,8 +181,8 @@ class PathTracer final : public PassIntegrator {
   Rgb lamps(const Walk& walk, std::optional<float> t_end) const {
     Rgb sum(0.0f);
     const Ray up_to{walk.ray.origin, walk.ray.direction, t_end.value_or(walk.ray.t_max)};
-    context_.scene.lamp_index.for_each_on_ray(up_to, [&](size_t lamp) {
-      const Light& light = *context_.scene.lights[lamp];
+    context_.scene().lamp_index.for_each_on_ray(up_to, [&](size_t lamp) {
+      const Light& light = *context_.scene().lights[lamp];
       const float t_max = t_end.value_or(light.infinite() ? kInfinity : walk.ray.t_max);
       const auto hit = light.intersect(Ray{walk.ray.origin, walk.ray.direction, t_max});
       if (hit && hit->t > walk.t_begin) {
@@ -197,9 +194,9 @@ class PathTracer final : public PassIntegrator {
 
   Rgb radiance(vec2 raster, Sampler& sampler, Counters& counters, float& alpha,
                std::span<Rgb> layers) const {
-    const Scene& scene = context_.scene;
+    const Scene& scene = context_.scene();
     ++counters.camera_paths;
-    const Ray start = context_.camera.sample_ray(raster, sampler.next_2d()).ray;
+    const Ray start = context_.camera().sample_ray(raster, sampler.next_2d()).ray;
     Walk walk{start, {start.origin, start.direction, true}, start.origin};
     std::optional<CameraTrace> trace;
     if (settings_.walk.expressions) {
@@ -343,7 +340,7 @@ class PathTracer final : public PassIntegrator {
 
   Rgb direct(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, const Walk& walk,
              Sampler& sampler, Counters& counters) const {
-    const Scene& scene = context_.scene;
+    const Scene& scene = context_.scene();
     const float u_light = sampler.next_1d();
     const vec2 u = sampler.next_2d();
     const LightChoice choice =

@@ -21,7 +21,7 @@ CachedPath measure_cached_path(const RenderContext& context, const IntegratorSet
     Counters ignored;
     for (size_t i = 0; i < kPaths / kBlocks; ++i) {
       Sampler sampler(settings.seed, Stream::Pilot, 0, block * (kPaths / kBlocks) + i);
-      trace_light_subpath(context.scene, mis, settings.walk, sampler, ignored,
+      trace_light_subpath(context.scene(), mis, settings.walk, sampler, ignored,
                           [&](const PathVertex& v, Sampler&) {
                             if (worth_caching(v, merging)) {
                               caches[block].add(v);

@@ -26,7 +26,7 @@ bool crosses(const Bounds& b, const Ray& ray, vec3 inverse) {
 
 }  // namespace
 
-LampIndex::LampIndex(const std::vector<std::unique_ptr<Light>>& lights,
+LampIndex::LampIndex(const LightList& lights,
                      const std::vector<size_t>& lamps) {
   std::vector<std::pair<Bounds, uint32_t>> items;
   for (const size_t lamp : lamps) {

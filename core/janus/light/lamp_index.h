@@ -16,7 +16,7 @@ class LampIndex {
   LampIndex() = default;
 
   // `lamps`: indices in `lights`, rising.
-  LampIndex(const std::vector<std::unique_ptr<Light>>& lights, const std::vector<size_t>& lamps);
+  LampIndex(const LightList& lights, const std::vector<size_t>& lamps);
 
   // Calls f(index of the light) for each lamp whose bounds the ray crosses before t_max, and for
   // each infinite light whatever t_max is; in the order of the indices.

@@ -10,6 +10,7 @@
 // common delta is left out of every density that contains it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -149,5 +150,8 @@ class Light {
     return Rgb(1.0f);
   }
 };
+
+// Scenes that differ in time share the lights that stand still.
+using LightList = std::vector<std::shared_ptr<const Light>>;
 
 }  // namespace janus

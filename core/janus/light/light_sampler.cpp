@@ -31,7 +31,7 @@ constexpr float kLeastShare = 0.1f;
 
 }  // namespace
 
-LightSampler::LightSampler(const std::vector<std::unique_ptr<Light>>& lights) {
+LightSampler::LightSampler(const LightList& lights) {
   std::vector<float> emission;
   std::vector<Emitter> finite;
   for (size_t i = 0; i < lights.size(); ++i) {

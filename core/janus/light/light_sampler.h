@@ -21,7 +21,7 @@ struct LightChoice {
 class LightSampler {
  public:
   LightSampler() = default;
-  explicit LightSampler(const std::vector<std::unique_ptr<Light>>& lights);
+  explicit LightSampler(const LightList& lights);
 
   bool emits() const { return !emission_.empty(); }
   bool illuminates() const { return !tree_.empty() || !infinite_.empty(); }

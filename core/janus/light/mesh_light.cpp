@@ -10,7 +10,9 @@ MeshLight::MeshLight(const Accel& accel, const Surfaces& surfaces, const Mesh& m
                      const Instance& instance, uint32_t index)
     : accel_(accel), surfaces_(surfaces), instance_(index), slot_(mesh.triangles().size(), kDark) {
   name = instance.name;
+  light_group = instance.light_group;
   visibility = instance.visibility;
+  holdout = instance.holdout;
   const mat3 linear(instance.to_world);
   std::vector<float> weights;
   for (uint32_t i = 0; i < slot_.size(); ++i) {

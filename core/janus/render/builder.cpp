@@ -5,27 +5,19 @@
 
 #include "janus/render/lamp.h"
 #include "janus/render/onlookers.h"
+#include "janus/render/time_slice.h"
 #include "janus/render/world.h"
 #include "janus/shading/compiler.h"
-#include "janus/util/error.h"
 
 namespace janus {
 
-// The camera looks along +z in Cycles; panoramas look along +x, with +z up.
-CameraView view_of(const CameraDesc& camera) {
-  mat4 turn(1.0f);
-  turn[2][2] = -1.0f;
-  if (camera.type == CameraType::Equirectangular) {
-    turn = mat4(0.0f);
-    turn[0][1] = turn[2][0] = -1.0f;
-    turn[1][2] = turn[3][3] = 1.0f;
-  }
-  const mat4 from_world = turn * glm::inverse(camera.transform);
-  return {camera.type,   from_world, glm::inverse(from_world), camera.left, camera.right,
-          camera.bottom, camera.top};
-}
-
 namespace {
+
+// Finite, and not flat.
+bool is_placement(const mat4& m) {
+  const float determinant = glm::determinant(mat3(m));
+  return is_finite(m) && std::isfinite(determinant) && determinant != 0.0f;
+}
 
 // A material's programs in Surfaces, by kRays.
 using ProgramsByRay = std::array<uint32_t, std::size(kRays)>;
@@ -80,14 +72,14 @@ class Commit {
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;
       instance.holdout = desc.holdout;
-      const float determinant = glm::determinant(mat3(desc.transform));
-      if (!is_finite(desc.transform) || !std::isfinite(determinant) || determinant == 0.0f) {
+      if (!is_placement(desc.transform)) {
         warn(name, "its transform is flat or not finite; the object is left out");
         continue;
       }
       instance.color = desc.color;
       instance.object_index = desc.object_index;
       instance.random = desc.random;
+      instance.motion = motion_of(name, desc.motion);
       instance.normal_to_world = glm::transpose(glm::inverse(mat3(desc.transform)));
       // The same surface for all rays, or one for those that see the same of it.
       std::map<std::vector<uint32_t>, RayMask> by_look;
@@ -111,17 +103,8 @@ class Commit {
     }
   }
 
-  void set_objects(const CameraDesc& camera) {
-    const float pixel =
-        camera.pixel_size > 0.0f ? camera.pixel_size : 1e-3f * (camera.top - camera.bottom);
-    const bool parallel = camera.type == CameraType::Orthographic;
-    scene_.surfaces.set_objects(
-        scene_.meshes, scene_.instances, view_of(camera),
-        {vec3(camera.transform[3]), parallel ? 0.0f : pixel, parallel ? pixel : 0.0f});
-  }
-
   void build_accel(const Scene* last) {
-    scene_.accel = std::make_unique<Accel>(scene_.meshes, scene_.instances, cancel_,
+    scene_.accel = std::make_shared<const Accel>(scene_.meshes, scene_.instances, cancel_,
                                            last ? last->accel.get() : nullptr);
   }
 
@@ -145,8 +128,6 @@ class Commit {
                                       instance, static_cast<uint32_t>(i));
       if (light->power() > 0.0f || by_chance) {
         instance.light = static_cast<int>(scene_.lights.size());
-        light->holdout = instance.holdout;
-        light->light_group = instance.light_group;
         scene_.lights.push_back(std::move(light));
       }
     }
@@ -235,8 +216,35 @@ class Commit {
     scene_.lights.push_back(std::move(light));
   }
 
-  // Around all surfaces.
-  SceneBox surroundings() const { return SceneBox(scene_.accel->bounds()); }
+  // Null: it stands still.
+  std::shared_ptr<const Motion> motion_of(const std::string& name, const std::vector<mat4>& keys) {
+    if (keys.size() < 2) {
+      return nullptr;
+    }
+    if (!std::ranges::all_of(keys, [](const mat4& key) { return is_placement(key); })) {
+      warn(name, "its transform is flat or not finite while the shutter is open; it stands still");
+      return nullptr;
+    }
+    return std::make_shared<const Motion>(keys);
+  }
+
+  // Around all surfaces, at all times.
+  SceneBox surroundings() const {
+    Bounds bounds = scene_.accel->bounds();
+    for (const Instance& instance : scene_.instances) {
+      const Mesh& mesh = *scene_.meshes[instance.mesh];
+      if (moves(scene_, instance) && !mesh.triangles().empty()) {
+        bounds.extend(swept(instance, mesh));
+      }
+    }
+    return SceneBox(bounds);
+  }
+
+  // Where an instance is at one time or another.
+  static Bounds swept(const Instance& instance, const Mesh& mesh) {
+    return instance.motion ? instance.motion->swept(mesh.bounds())
+                           : transformed(mesh.bounds(), instance.to_world);
+  }
 
   // Can a surface lie within the lamp's radius?
   bool surfaces_near(const LightDesc& lamp) const {
@@ -246,8 +254,11 @@ class Commit {
       const auto near = [&](const Bounds& bounds) {
         return length2(glm::clamp(center, bounds.lower, bounds.upper) - center) < sqr(lamp.radius);
       };
-      if (mesh.triangles().empty() || !near(transformed(mesh.bounds(), instance.to_world))) {
+      if (mesh.triangles().empty() || !near(swept(instance, mesh))) {
         continue;
+      }
+      if (moves(scene_, instance)) {
+        return true;
       }
       for (const Mesh::Triangle& triangle : mesh.triangles()) {
         Bounds bounds;
@@ -270,6 +281,36 @@ class Commit {
 
 }  // namespace
 
+void SceneBuilder::set_mesh_motion(const std::string& key, std::vector<MeshKey> motion) {
+  const auto mesh = meshes_.find(key);
+  if (mesh == meshes_.end()) {
+    throw SceneError(key, "motion", "there is no such mesh");
+  }
+  mesh->second->set_motion(key, std::move(motion));
+}
+
+void SceneBuilder::set_instance_motion(const std::string& key, std::vector<mat4> motion) {
+  const auto instance = instances_.find(key);
+  if (instance == instances_.end()) {
+    throw SceneError(key, "motion", "there is no such instance");
+  }
+  instance->second.motion = std::move(motion);
+}
+
+void SceneBuilder::set_camera_motion(std::vector<CameraDesc::Key> motion) {
+  if (!camera_) {
+    throw SceneError("camera", "motion", "the scene has no camera");
+  }
+  camera_->motion = std::move(motion);
+}
+
+void SceneBuilder::set_shutter(std::vector<float> shutter) {
+  if (!camera_) {
+    throw SceneError("camera", "shutter", "the scene has no camera");
+  }
+  camera_->shutter = std::move(shutter);
+}
+
 void SceneBuilder::remove(const std::string& key) {
   meshes_.erase(key);
   materials_.erase(key);
@@ -291,6 +332,20 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   if (!(camera_->clip_end > camera_->clip_start) || !(camera_->clip_start >= 0.0f)) {
     throw SceneError(camera_->name, "camera", "its clipping range is empty");
   }
+  for (const CameraDesc::Key& key : camera_->motion) {
+    const float size = (key.right - key.left) * (key.top - key.bottom);
+    if (!is_placement(key.transform) || !usable(size)) {
+      throw SceneError(camera_->name, "camera",
+                       "its transform or its window is degenerate while the shutter is open");
+    }
+  }
+  if (camera_->motion.size() == 1) {
+    throw SceneError(camera_->name, "motion", "one time is no motion");
+  }
+  if (std::ranges::any_of(camera_->shutter, [](float x) { return !(x >= 0.0f) || std::isinf(x); }) ||
+      (!camera_->shutter.empty() && std::ranges::max(camera_->shutter) <= 0.0f)) {
+    throw SceneError(camera_->name, "shutter", "the shutter never opens");
+  }
   if (camera_->type == CameraType::Equirectangular &&
       !(std::max(std::abs(camera_->bottom), std::abs(camera_->top)) <= 1.0001f * 0.5f * kPi)) {
     throw SceneError(camera_->name, "camera", "its latitudes go beyond the poles");
@@ -306,7 +361,7 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   commit.add_materials(materials_, images_);
   commit.add_meshes(meshes_);
   commit.add_instances(instances_);
-  commit.set_objects(*camera_);
+  scene->place_objects();
   std::shared_ptr<const Scene> last;
   {
     const std::lock_guard lock(last_->mutex);

@@ -9,6 +9,7 @@
 #include "janus/render/scene.h"
 #include "janus/scene/description.h"
 #include "janus/util/cancel.h"
+#include "janus/util/error.h"
 
 namespace janus {
 
@@ -16,6 +17,15 @@ namespace janus {
 class MeshItem {
  public:
   explicit MeshItem(MeshDesc desc) : desc_(std::move(desc)) {}
+
+  // Throws Error once the mesh is made.
+  void set_motion(const std::string& key, std::vector<MeshKey> motion) {
+    const std::lock_guard lock(mutex_);
+    if (mesh_) {
+      throw SceneError(key, "motion", "the mesh is in use: set it again first");
+    }
+    desc_.motion = std::move(motion);
+  }
 
   // Made of the description when it is first asked for. May be called from any thread. Throws what
   // the mesh throws.
@@ -47,6 +57,14 @@ class SceneBuilder {
   void set_instance(const std::string& key, InstanceDesc desc) {
     instances_[key] = std::move(desc);
   }
+  // Motion of what has been set, at even times from the one when the shutter opens to the one when
+  // it closes. Throw SceneError for what is not there.
+  void set_mesh_motion(const std::string& key, std::vector<MeshKey> motion);
+  void set_instance_motion(const std::string& key, std::vector<mat4> motion);
+  void set_camera_motion(std::vector<CameraDesc::Key> motion);
+  // CameraDesc::shutter.
+  void set_shutter(std::vector<float> shutter);
+
   void set_light(const std::string& key, LightDesc desc) { lights_[key] = std::move(desc); }
   void set_world(WorldDesc desc) { world_ = std::move(desc); }
   void set_camera(CameraDesc desc) { camera_ = std::move(desc); }

@@ -3,6 +3,29 @@
 
 namespace janus {
 
+// The camera looks along +z in Cycles; panoramas look along +x, with +z up.
+CameraView view_of(const CameraDesc& camera) {
+  mat4 turn(1.0f);
+  turn[2][2] = -1.0f;
+  if (camera.type == CameraType::Equirectangular) {
+    turn = mat4(0.0f);
+    turn[0][1] = turn[2][0] = -1.0f;
+    turn[1][2] = turn[3][3] = 1.0f;
+  }
+  const mat4 from_world = turn * glm::inverse(camera.transform);
+  return {camera.type,   from_world, glm::inverse(from_world), camera.left, camera.right,
+          camera.bottom, camera.top};
+}
+
+void Scene::place_objects() {
+  const float pixel =
+      camera.pixel_size > 0.0f ? camera.pixel_size : 1e-3f * (camera.top - camera.bottom);
+  const bool parallel = camera.type == CameraType::Orthographic;
+  surfaces.set_objects(
+      meshes, instances, view_of(camera),
+      {vec3(camera.transform[3]), parallel ? 0.0f : pixel, parallel ? pixel : 0.0f});
+}
+
 Rgb Scene::transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings,
                                  End camera) const {
   if (accel->occluded_opaque(a, b, type)) {

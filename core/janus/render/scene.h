@@ -23,6 +23,9 @@ CameraView view_of(const CameraDesc& camera);
 // SceneBuilder::commit().
 class Scene {
  public:
+  // Lets `surfaces` know the instances as they stand, and the camera.
+  void place_objects();
+
   // The nearest surface that rays of `type` meet, written to `hit`; false: none.
   bool intersect(const Ray& ray, RayType type, SurfaceInteraction& hit) const {
     return accel->intersect(ray, type, hit);
@@ -82,9 +85,9 @@ class Scene {
   MeshList meshes;
   std::vector<Instance> instances;
   Surfaces surfaces;
-  std::unique_ptr<Accel> accel;
-  std::vector<std::unique_ptr<Light>> lights;  // mesh lights first
-  std::vector<size_t> lamps;  // the lights that rays meet without a surface; the world last
+  std::shared_ptr<const Accel> accel;
+  LightList lights;           // mesh lights first
+  std::vector<size_t> lamps;  // those that rays meet without a surface; the world last
   LampIndex lamp_index;
   LightSampler light_sampler;
   bool has_transparency = false;  // of some surface
@@ -93,6 +96,8 @@ class Scene {
   bool has_holdouts = false;      // of some object or surface
   CameraDesc camera;
   Diagnostics diagnostics;
+  // Of a scene at a time of the shutter: the one that it was made of, with which it shares much.
+  std::shared_ptr<const Scene> timeless;
 
  private:
   Rgb transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings, End camera) const;

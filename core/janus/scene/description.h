@@ -28,6 +28,11 @@ struct AttributeDesc {
   std::vector<float> values;  // interleaved; empty: to be computed (see geometry/derived.h)
 };
 
+// The vertices of a mesh at another time.
+struct MeshKey {
+  std::vector<vec3> positions, normals;  // as many as the mesh has of each
+};
+
 struct MeshDesc {
   std::string name;
   std::vector<vec3> positions;
@@ -39,6 +44,9 @@ struct MeshDesc {
   std::vector<uint32_t> faces;             // per triangle, its face; empty: each is a face
   std::vector<AttributeDesc> attributes;
   std::vector<glm::uvec2> edges;  // pairs of positions; where an attribute is to be computed
+  // At even times, from the one when the shutter opens to the one when it closes; empty: always as
+  // above. Normals are those of vertices or corners, whichever it has.
+  std::vector<MeshKey> motion{};
 };
 
 struct InstanceDesc {
@@ -56,6 +64,7 @@ struct InstanceDesc {
   std::map<std::string, vec4> attributes;
   std::string light_group{};  // where what it emits belongs; empty: nowhere
   std::string asset{};        // the name by which Cryptomatte knows it as a part; empty: its own
+  std::vector<mat4> motion{};  // transforms at such times; empty: it stands still
 };
 
 struct MaterialDesc {
@@ -125,6 +134,14 @@ struct CameraDesc {
   float aperture_ratio = 1.0f;  // height to width; 2: half as wide
   // The height of a pixel in the units of the frame: how closely bump looks. 0: a thousandth.
   float pixel_size = 0.0f;
+  // At such times; empty: it stands still.
+  struct Key {
+    mat4 transform = mat4(1.0f);
+    float left = -0.5f, right = 0.5f, bottom = -0.5f, top = 0.5f;
+  };
+  std::vector<Key> motion{};
+  // How open the shutter is, at even times from opening to closing; empty: equally at all times.
+  std::vector<float> shutter{};
 };
 
 }  // namespace janus

@@ -137,7 +137,8 @@ void RenderSession::start() {
 
 void RenderSession::run() {
   ThreadPool pool(settings_.threads);
-  const auto camera = make_camera(scene_->camera, settings_.width, settings_.height);
+  Exposure exposure(scene_, settings_.width, settings_.height, settings_.rect().pixels(),
+                    settings_.motion_blur, settings_.seed);
   IntegratorSettings integrator_settings;
   // Cycles counts bounces between the first surface and the light: 0 leaves camera, surface, light.
   integrator_settings.walk.max_edges = settings_.max_bounces + 2;
@@ -167,7 +168,7 @@ void RenderSession::run() {
   integrator_settings.seed = settings_.seed;
   integrator_settings.cache_bytes = settings_.cache_bytes;
   integrator_settings.check_weights = settings_.check_weights;
-  const RenderContext context{*scene_, *camera, *film_, pool, cancel_};
+  const RenderContext context{exposure, *film_, pool, cancel_};
   const auto integrator = make_integrator(settings_, context, integrator_settings);
   const auto data = data_film_ ? make_data_passes(context, integrator_settings,
                                                   settings_.data_settings, *data_film_)
@@ -177,10 +178,16 @@ void RenderSession::run() {
     cancel_.throw_if_cancelled();
     // Only this thread and its pool write a pass, and nobody reads one that has not ended.
     film_->begin_pass();
-    integrator->render_pass(pass);
-    if (data) {
-      data->render_pass(pass);
+    integrator->begin_pass(pass);
+    for (size_t i = 0; i < exposure.times(); ++i) {
+      exposure.open(pass, i, cancel_);
+      const Wave wave{pass, i, exposure.times()};
+      integrator->render_wave(wave);
+      if (data) {
+        data->render_wave(wave);
+      }
     }
+    integrator->end_pass();
     const std::lock_guard lock(mutex_);
     film_->end_pass(pool);
     statistics_.samples = pass + 1;

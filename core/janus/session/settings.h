@@ -53,6 +53,7 @@ struct RenderSettings {
   int strategy_images = 0;                  // bdpt: Layers::longest
   DataChoice data;                          // passes of what the camera sees
   DataSettings data_settings;
+  bool motion_blur = true;     // of what moves in the scene
   float film_exposure = 1.0f;  // a factor of the finished picture's colour
   bool film_transparent = false;
   // On a transparent film: the world is not seen through glass of up to this roughness either.

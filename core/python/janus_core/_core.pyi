@@ -259,6 +259,22 @@ class SceneBuilder:
         an EQUIRECTANGULAR. aperture_radius: metres; 0: everything is in focus. aperture_blades:
         corners of the aperture; below 3: round. aperture_ratio: height to width.
         """
+    def set_mesh_motion(
+        self, key: str, *, positions: npt.ArrayLike, normals: npt.ArrayLike | None = None
+    ) -> None:
+        """How a mesh that has been set changes its form while the shutter is open.
+
+        positions: float[K, N, 3] at K even times from opening to closing. normals: float[K, N or C,
+        3], of vertices or corners, whichever it has; None: it has none.
+        """
+    def set_instance_motion(self, key: str, *, transforms: npt.ArrayLike) -> None:
+        """Where an instance that has been set is at K such times: float[K, 4, 4]."""
+    def set_camera_motion(
+        self, *, transforms: npt.ArrayLike, windows: Sequence[Sequence[float]]
+    ) -> None:
+        """Where the camera is at K such times, float[K, 4, 4], and its window, float[K, 4]."""
+    def set_shutter(self, openness: Sequence[float]) -> None:
+        """How open the shutter is at even times; without, all times count alike."""
     def remove(self, key: str) -> None:
         """Forgets what has this key; unknown keys are ignored."""
     def commit(self, poll: Callable[[], object] | None = None) -> Scene:

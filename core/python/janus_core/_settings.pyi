@@ -33,6 +33,7 @@ class RenderSettings:
         merge_radius: float = 0.0,
         adaptive_counts: bool = False,
         heuristic: Literal["BALANCE", "POWER", "NONE"] = "BALANCE",
+        motion_blur: bool = True,
         film_exposure: float = 1.0,
         film_transparent: bool = False,
         film_transparent_glass: bool = False,
@@ -120,6 +121,9 @@ class RenderSettings:
     @property
     def heuristic(self) -> Literal["BALANCE", "POWER"]:
         """How the techniques are weighted."""
+    @property
+    def motion_blur(self) -> bool:
+        """Is what moves while the shutter is open blurred?"""
     @property
     def film_exposure(self) -> float:
         """A factor of the finished picture's colour."""

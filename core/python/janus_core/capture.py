@@ -24,7 +24,7 @@ from . import Error, IoError, RenderSettings, Scene, SceneBuilder, __version__
 __all__ = ["CapturingBuilder", "load"]
 
 FORMAT = "janus scene"
-VERSION = 7  # raised when an older reader could not understand a newer file
+VERSION = 8  # raised when an older reader could not understand a newer file
 
 _KINDS = (
     "mesh",
@@ -47,6 +47,8 @@ _ARRAYS = {
     "image": ("pixels",),
 }
 _TRANSFORMS = "instance_transforms"  # one array for all, as there can be very many
+_MOTIONS = ("mesh", "instance", "camera")  # what can move while the shutter is open
+_CAMERA = ""  # its key there
 
 
 class CapturingBuilder:
@@ -61,6 +63,8 @@ class CapturingBuilder:
         self._items: dict[str, dict[str, dict[str, Any]]] = {kind: {} for kind in _KINDS}
         self._world: dict[str, Any] | None = None
         self._camera: dict[str, Any] | None = None
+        self._shutter: list[float] | None = None
+        self._motion: dict[str, dict[str, dict[str, Any]]] = {kind: {} for kind in _MOTIONS}
 
     def set_mesh(self, key: str, **arguments: Any) -> None:
         """As SceneBuilder.set_mesh."""
@@ -91,11 +95,32 @@ class CapturingBuilder:
         """As SceneBuilder.set_camera."""
         self._builder.set_camera(**arguments)
         self._camera = _own(arguments)
+        self._motion["camera"], self._shutter = {}, None
+
+    def set_mesh_motion(self, key: str, **arguments: Any) -> None:
+        """As SceneBuilder.set_mesh_motion."""
+        self._builder.set_mesh_motion(key, **arguments)
+        self._motion["mesh"][key] = _own(arguments)
+
+    def set_instance_motion(self, key: str, **arguments: Any) -> None:
+        """As SceneBuilder.set_instance_motion."""
+        self._builder.set_instance_motion(key, **arguments)
+        self._motion["instance"][key] = _own(arguments)
+
+    def set_camera_motion(self, **arguments: Any) -> None:
+        """As SceneBuilder.set_camera_motion."""
+        self._builder.set_camera_motion(**arguments)
+        self._motion["camera"][_CAMERA] = _own(arguments)
+
+    def set_shutter(self, openness: Any) -> None:
+        """As SceneBuilder.set_shutter."""
+        self._builder.set_shutter(openness)
+        self._shutter = [float(x) for x in openness]
 
     def remove(self, key: str) -> None:
         """As SceneBuilder.remove."""
         self._builder.remove(key)
-        for items in self._items.values():
+        for items in (*self._items.values(), *self._motion.values()):
             items.pop(key, None)
 
     def commit(self, poll: Callable[[], object] | None = None) -> Scene:
@@ -122,6 +147,7 @@ class CapturingBuilder:
     def _set(self, kind: str, key: str, arguments: dict[str, Any]) -> Any:
         result = getattr(self._builder, f"set_{kind}")(key, **arguments)
         self._items[kind][key] = _own(arguments)
+        self._motion.get(kind, {}).pop(key, None)  # of what was there before
         return result
 
     def _describe(self) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
@@ -132,6 +158,7 @@ class CapturingBuilder:
             "janus_core": __version__,
             "world": self._world,
             "camera": self._camera,
+            "shutter": self._shutter,
         }
         arrays: dict[str, np.ndarray] = {}
         for kind, names in _ARRAYS.items():
@@ -162,7 +189,23 @@ class CapturingBuilder:
             arrays[_TRANSFORMS] = np.stack(
                 [np.asarray(item["transform"], dtype=np.float64) for item in instances.values()]
             )
+        description["motion"] = {
+            kind: {
+                key: {
+                    name: self._add(arrays, f"motion/{kind}/{number}/{name}", value)
+                    for name, value in item.items()
+                    if value is not None
+                }
+                for number, (key, item) in enumerate(items.items())
+            }
+            for kind, items in self._motion.items()
+        }
         return description, arrays
+
+    @staticmethod
+    def _add(arrays: dict[str, np.ndarray], member: str, value: Any) -> str:
+        arrays[member] = np.asarray(value)
+        return member
 
 
 def load(path: str | os.PathLike[str]) -> tuple[SceneBuilder, RenderSettings]:
@@ -229,6 +272,13 @@ def _build(
         builder.set_world(**description["world"])
     if description["camera"] is not None:
         builder.set_camera(**description["camera"])
+    for kind, items in description.get("motion", {}).items():
+        for key, members in items.items():
+            values = {name: _array(archive, member) for name, member in members.items()}
+            of_key = () if kind == "camera" else (key,)
+            getattr(builder, f"set_{kind}_motion")(*of_key, **values)
+    if description.get("shutter") is not None:
+        builder.set_shutter(description["shutter"])
     settings = dict(description["settings"])
     if settings.get("crop") is not None:
         settings["crop"] = tuple(settings["crop"])

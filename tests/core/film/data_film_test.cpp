@@ -70,14 +70,29 @@ TEST(DataFilm, HasThePassesThatWereAskedFor) {
 // One pixel with two samples, one with one, one with none.
 TEST(DataFilm, KeepsFirstSamplesAndMeans) {
   DataFilm film({5, 5, 8, 6}, choice());
-  const DataSample first[] = {sample(2, {0, 0, 1}, {}), sample(3, {1, 0, 0}, {})};
+  const std::optional<DataSample> first[] = {sample(2, {0, 0, 1}, {}), sample(3, {1, 0, 0}, {})};
   film.add(0, first);
-  const DataSample second[] = {sample(1, {0, 1, 0}, {})};
+  const std::optional<DataSample> second[] = {sample(1, {0, 1, 0}, {}), std::nullopt};
   film.add(0, second);
   EXPECT_EQ(film.develop("Depth").pixels, (std::vector<float>{2, 3, 1e10f}));
   EXPECT_EQ(film.develop("Normal").pixels, (std::vector<float>{0, .5f, .5f, 1, 0, 0, 0, 0, 0}));
   EXPECT_EQ(film.develop("Mist").pixels, (std::vector<float>{1 - .375f, .25f, 1}));
   EXPECT_EQ(film.develop("Debug Sample Count").pixels, (std::vector<float>{2, 1, 0}));
+}
+
+// The mean over what sees a surface: a sample of nothing does not make it slower.
+TEST(DataFilm, TakesTheMeanOfWhatIsSeen) {
+  DataChoice vector;
+  vector.passes[static_cast<size_t>(DataPass::Vector)] = true;
+  DataFilm film({0, 0, 2, 1}, vector);
+  std::optional<DataSample> samples[] = {DataSample(), DataSample()};
+  film.add(0, samples);
+  samples[0]->set_seen(DataPass::Vector, vec4(1, 2, 3, 4));
+  film.add(0, samples);
+  samples[0]->set_seen(DataPass::Vector, vec4(3, 4, 5, 6));
+  film.add(0, samples);
+  EXPECT_EQ(film.develop("Vector").pixels, (std::vector<float>{2, 3, 4, 5, 0, 0, 0, 0}));
+  EXPECT_EQ(DataFilm::bytes({0, 0, 2, 1}, vector), 2 * sizeof(float) * (1 + 5));
 }
 
 // Ids by their coverage, two in a picture; what finds no place counts for the last.
@@ -87,7 +102,8 @@ TEST(DataFilm, SortsMattesByCoverage) {
                                 sample(1, {}, {{8, .5f}, {10, .25f}, {11, .125f}}),
                                 sample(1, {}, {})};
   for (const DataSample& s : samples) {
-    film.add(0, {&s, 1});
+    const std::optional<DataSample> one[] = {s};
+    film.add(0, one);
   }
   const Image best = film.develop("CryptoMaterial00"), rest = film.develop("CryptoMaterial01");
   EXPECT_EQ(best.pixels, (std::vector<float>{8, .25f, 9, .25f}));

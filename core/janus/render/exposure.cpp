@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "janus/render/exposure.h"
+
+#include <algorithm>
+
+#include "janus/math/hash.h"
+#include "janus/render/time_slice.h"
+
+namespace janus {
+
+namespace {
+
+// Times of a pass. More of them make noise of what would be separate images of one thing; each
+// costs what at_time() does.
+constexpr size_t kMostTimes = 16, kFewestTimes = 4;
+// A path takes about ten times as long as a triangle or an instance of at_time().
+constexpr size_t kWorkPerPixel = 1;
+
+}  // namespace
+
+Exposure::Exposure(std::shared_ptr<const Scene> scene, int width, int height, size_t pixels,
+                   bool blurs, uint32_t seed)
+    : timeless_(std::move(scene)),
+      scene_(timeless_),
+      camera_(make_camera(scene_->camera, width, height)),
+      width_(width),
+      height_(height) {
+  if (!blurs || !moves(*timeless_)) {
+    return;
+  }
+  times_ = std::clamp(kWorkPerPixel * pixels / std::max<size_t>(1, slice_work(*timeless_)),
+                      kFewestTimes, kMostTimes);
+  shift_ = static_cast<float>(hash32(seed) >> 8) * 0x1p-24f;
+  float sum = 0.0f;
+  for (const float open : timeless_->camera.shutter) {
+    closed_until_.push_back(sum);
+    sum += open;
+  }
+  closed_until_.push_back(sum);
+  for (float& share : closed_until_) {
+    share /= sum;
+  }
+}
+
+// Van der Corput's sequence over passes, turned by the golden ratio from wave to wave.
+float Exposure::time(int pass, size_t wave) const {
+  double u = shift_ + 0.6180339887498949 * static_cast<double>(wave);
+  double digit = 0.5;
+  for (auto rest = static_cast<uint32_t>(pass); rest > 0; rest >>= 1, digit *= 0.5) {
+    u += rest & 1 ? digit : 0.0;
+  }
+  return through_shutter(static_cast<float>(u - std::floor(u)));
+}
+
+float Exposure::through_shutter(float u) const {
+  if (closed_until_.size() < 2) {
+    return u;
+  }
+  const auto after = std::upper_bound(closed_until_.begin() + 1, closed_until_.end() - 1, u);
+  const float from = *(after - 1), to = *after;
+  const float share = to > from ? std::clamp((u - from) / (to - from), 0.0f, 1.0f) : 0.5f;
+  const auto step = static_cast<float>(after - 1 - closed_until_.begin());
+  return (step + share) / static_cast<float>(closed_until_.size() - 1);
+}
+
+void Exposure::open(int pass, size_t wave, const CancelToken& cancel) {
+  if (times_ == 1) {
+    return;
+  }
+  scene_ = at_time(timeless_, time(pass, wave), cancel);
+  camera_ = make_camera(scene_->camera, width_, height_);
+}
+
+}  // namespace janus
