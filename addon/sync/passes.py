@@ -54,9 +54,7 @@ GUIDES = {
     "RGB_ALBEDO_NORMAL": ("Denoising Albedo", "Denoising Normal"),
 }
 # Passes of Blender and of Cycles that Janus does not make.
-UNSUPPORTED = (
-    ("use_pass_ambient_occlusion", "Ambient Occlusion"),
-)
+UNSUPPORTED = (("use_pass_ambient_occlusion", "Ambient Occlusion"),)
 
 # What switches it on in view_layer.janus, the name of the pass, its light path expression
 READY_MADE = (

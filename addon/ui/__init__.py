@@ -3,12 +3,13 @@
 
 import bpy
 
-from . import data, diagnostics, engine_panels, material, passes, presets, scene
+from . import data, diagnostics, engine_panels, material, motion, passes, presets, scene
 
 CLASSES = (
     *presets.CLASSES,
     *diagnostics.CLASSES,
     *scene.CLASSES,
+    *motion.CLASSES,
     *passes.CLASSES,
     *material.CLASSES,
     *data.CLASSES,

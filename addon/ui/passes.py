@@ -36,8 +36,12 @@ class JANUS_VIEWLAYER_PT_passes_data(PassesPanel, bpy.types.Panel):
         layer = context.view_layer
         column = self.column().column(heading="Include", align=True)
         column.prop(layer, "use_pass_combined")
-        for name in ("z", "mist", "position", "normal", "uv"):
+        for name in ("z", "mist", "position", "normal"):
             column.prop(layer, f"use_pass_{name}")
+        row = column.row()
+        row.active = not context.scene.render.use_motion_blur  # then there is none
+        row.prop(layer, "use_pass_vector")
+        column.prop(layer, "use_pass_uv")
         column.prop(layer.janus, "denoising_store_passes")
         column = self.column().column(heading="Indexes", align=True)
         column.prop(layer, "use_pass_object_index")

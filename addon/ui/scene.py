@@ -233,16 +233,6 @@ class JANUS_VIEWLAYER_PT_override(JanusPanel, bpy.types.Panel):
         column.prop(layer, "samples")
 
 
-class JANUS_VIEWLAYER_PT_filter(JanusPanel, bpy.types.Panel):
-    bl_label = "Filter"
-    bl_context = "view_layer"
-
-    def draw(self, context):
-        row = self.column().column(heading="Use").row()
-        row.active = context.scene.janus.use_denoising
-        row.prop(context.view_layer.janus, "use_denoising", text="Denoising")
-
-
 CLASSES = (
     JANUS_RENDER_PT_sampling,
     JANUS_RENDER_PT_sampling_viewport,
@@ -257,5 +247,4 @@ CLASSES = (
     JANUS_RENDER_PT_film_transparency,
     JANUS_RENDER_PT_performance,
     JANUS_VIEWLAYER_PT_override,
-    JANUS_VIEWLAYER_PT_filter,
 )

@@ -7,7 +7,7 @@ import numpy as np
 
 # Of passes that do not have three.
 ONE = ("Depth", "Mist", "IndexOB", "IndexMA", "Denoising Depth", "Debug Sample Count")
-CHANNELS = dict.fromkeys(ONE, 1)
+CHANNELS = dict.fromkeys(ONE, 1) | {"Vector": 4}
 
 
 class Recorder:
@@ -17,7 +17,8 @@ class Recorder:
         self.meshes, self.materials, self.instances, self.lights = {}, {}, {}, {}
         self.images = {}
         self.attributes = {}  # name of a material -> keys of what it reads
-        self.world = self.camera = None
+        self.world = self.camera = self.camera_motion = self.shutter = None
+        self.mesh_motion, self.instance_motion = {}, {}
         self.diagnostics = list(diagnostics)
 
     @staticmethod
@@ -51,6 +52,20 @@ class Recorder:
     def set_camera(self, **arguments):
         self.camera = self._copy(arguments)
 
+    def set_mesh_motion(self, key, **arguments):
+        assert key in self.meshes
+        self.mesh_motion[key] = self._copy(arguments)
+
+    def set_instance_motion(self, key, transforms):
+        assert key in self.instances
+        self.instance_motion[key] = transforms
+
+    def set_camera_motion(self, **arguments):
+        self.camera_motion = arguments
+
+    def set_shutter(self, openness):
+        self.shutter = openness
+
     def commit(self, poll=None):
         return SimpleNamespace(
             diagnostics=self.diagnostics, counts={"instances": len(self.instances)}
@@ -60,6 +75,11 @@ class Recorder:
 
     def by_name(self, kind="instances"):
         return {item["name"]: item for item in getattr(self, kind).values()}
+
+    def motion_of(self, object_name):
+        """Transforms of the object at the times of the shutter; None: it stands still."""
+        found = [key for key, item in self.instances.items() if item["name"] == object_name]
+        return self.instance_motion.get(found[0])
 
     def mesh_of(self, object_name):
         return self.meshes[self.by_name()[object_name]["mesh"]]

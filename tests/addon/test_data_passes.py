@@ -105,12 +105,13 @@ def test_uv_needs_no_material_that_reads_it(scene, layer, core, tmp_path):
 
 
 def test_what_is_not_made_is_said(scene, layer, core):
-    layer.use_pass_vector = layer.cycles.use_pass_shadow_catcher = True
+    layer.use_pass_ambient_occlusion = layer.cycles.use_pass_shadow_catcher = True
     layer.aovs.add().name = "Mask"
     bpy.ops.render.render()
     text = " ".join(messages())
     assert all(
-        f"'{name}' is not supported" in text for name in ("Vector", "Shadow Catcher", "Mask")
+        f"'{name}' is not supported" in text
+        for name in ("Ambient Occlusion", "Shadow Catcher", "Mask")
     )
 
 

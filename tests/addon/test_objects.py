@@ -284,7 +284,6 @@ def test_unsupported_things_are_named(scene, export):
     bpy.ops.object.volume_add()
     cloud = bpy.data.objects.new("Cloud", bpy.data.pointclouds.new("Cloud"))
     scene.collection.objects.link(cloud)
-    scene.render.use_motion_blur = True
     material = new_material("Foggy")
     output = material.node_tree.nodes.new("ShaderNodeOutputMaterial")
     for kind, socket in (("VolumeScatter", "Volume"), ("Displacement", "Displacement")):
@@ -299,7 +298,6 @@ def test_unsupported_things_are_named(scene, export):
         "Object 'Ghost': shadow catchers",
         "Object 'Volume': volumes",
         "Object 'Cloud': point clouds",
-        "Motion blur",
         "Material 'Foggy': volumes",
         "Material 'Foggy': displacement",
         "Object 'Sky': the world's own limit of bounces",

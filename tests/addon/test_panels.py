@@ -261,5 +261,5 @@ def test_denoising_is_greyed_with_the_reason(scene, monkeypatch, where):
 
 
 def test_a_view_layer_can_leave_denoising_out(scene):
-    assert draw("JANUS_VIEWLAYER_PT_filter") == ["use_denoising"]
+    assert draw("JANUS_VIEWLAYER_PT_filter") == ["use_motion_blur", "use_denoising"]
     assert "use_denoising" in scene.view_layers[0].janus.bl_rna.properties

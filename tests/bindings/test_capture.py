@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from janus_core import capture, exr
 
-from .conftest import SETTINGS, fill, render, sky
+from .conftest import PLANE, SETTINGS, fill, render, sky, translation
 
 
 @pytest.fixture
@@ -63,6 +63,47 @@ def test_holdouts(tmp_path):
     assert plain[..., :3].any()
     assert plain[..., 3].all()
     assert not held[4:-4, 4:-4].any()  # the border sees the edge of the floor
+
+
+def test_motion(tmp_path):
+    builder = capture.CapturingBuilder()
+    fill(builder)
+    still = render(builder.commit()).snapshot()
+    fill(builder)
+    up = PLANE["positions"] + np.float32([0, 0, 0.5])
+    builder.set_mesh_motion("mesh", positions=[PLANE["positions"], up])
+    builder.set_instance_motion("floor", transforms=[translation(0, 0, 0), translation(1, 0, 0)])
+    builder.set_camera_motion(
+        transforms=[translation(0, 0, 4), translation(0.5, 0, 4)],
+        windows=[(-0.5, 0.5, -0.25, 0.25)] * 2,
+    )
+    builder.set_shutter([0.2, 1.0, 0.4])
+    builder.save(tmp_path / "moving.npz", janus_core.RenderSettings(**SETTINGS))
+    blurred = render(builder.commit()).snapshot()
+    assert not np.array_equal(blurred, still)
+    again, _ = capture.load(tmp_path / "moving.npz")
+    assert np.array_equal(render(again.commit()).snapshot(), blurred)
+    fill(builder)  # what is set again stands still
+    builder.save(tmp_path / "still.npz", janus_core.RenderSettings(**SETTINGS))
+    again, _ = capture.load(tmp_path / "still.npz")
+    assert np.array_equal(render(again.commit()).snapshot(), still)
+
+
+def test_motion_that_is_none():
+    builder = janus_core.SceneBuilder()
+    with pytest.raises(janus_core.SceneError, match="no camera"):
+        builder.set_shutter([1.0])
+    fill(builder)
+    for arguments, message in (
+        ({"positions": [[(0, 0)]]}, r"motion positions.*\(N, M, 3\)"),
+        ({"positions": [PLANE["positions"]] * 2, "normals": [PLANE["positions"]]}, "1 times"),
+    ):
+        with pytest.raises(janus_core.SceneError, match=message):
+            builder.set_mesh_motion("mesh", **arguments)
+    with pytest.raises(janus_core.SceneError, match=r"floor.*\(N, 4, 4\)"):
+        builder.set_instance_motion("floor", transforms=np.eye(3))
+    with pytest.raises(janus_core.SceneError, match="lengths"):
+        builder.set_camera_motion(transforms=[np.eye(4)] * 2, windows=[])
 
 
 PASSES = (

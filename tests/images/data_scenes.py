@@ -10,7 +10,7 @@ SEEDS, SAMPLES = 3, 256
 WIDTH, HEIGHT = 48, 36
 CASES = ("perspective", "orthographic", "panorama")
 
-TOGGLES = ("z", "mist", "position", "normal", "uv", "object_index", "material_index")
+TOGGLES = ("z", "mist", "position", "normal", "uv", "vector", "object_index", "material_index")
 MATTES = ("object", "material", "asset")
 
 
@@ -59,6 +59,7 @@ def build(name: str):
     layer.cycles.denoising_store_passes = True
     layer.janus.denoising_store_passes = True
     camera = scene.camera.data
+    move(scene)
     if name == "orthographic":
         camera.type, camera.ortho_scale = "ORTHO", 4.0
     elif name == "panorama":
@@ -68,3 +69,17 @@ def build(name: str):
         owner.longitude_min, owner.longitude_max = -0.7, 0.7
         owner.latitude_min, owner.latitude_max = -0.5, 0.5
     return scene
+
+
+def move(scene) -> None:
+    """What there is at frame 1 stays; before and after it is elsewhere, as Vector says."""
+    block, camera = scene.objects["Block"], scene.camera
+    for obj, way, turn in ((block, (0.4, 0.1, 0.2), 0.3), (camera, (0.1, 0.2, -0.1), 0.05)):
+        place, angles = obj.location.copy(), obj.rotation_euler.copy()
+        for frame in range(3):
+            for i in range(3):
+                obj.location[i] = place[i] + (frame - 1) * way[i]
+            obj.rotation_euler.z = angles.z + (frame - 1) * turn
+            obj.keyframe_insert("location", frame=frame)
+            obj.keyframe_insert("rotation_euler", frame=frame)
+    scene.frame_set(1)

@@ -26,7 +26,6 @@ def build(case: str):
 
     from scenes import kit
 
-    bpy.context.preferences.edit.keyframe_new_interpolation_type = "LINEAR"
     scene = bpy.context.scene
     kit.neutral_settings(scene, 48, 32, SAMPLES)
     kit.limit_bounces(scene.cycles, BOUNCES)
@@ -43,7 +42,7 @@ def build(case: str):
 
 
 def _keys(owner, name, first, last, frames=(0, 2)):
-    """Goes from one value to another, evenly."""
+    """Goes from one value to another."""
     for frame, value in zip(frames, (first, last), strict=True):
         setattr(owner, name, value)
         owner.keyframe_insert(name, frame=frame)

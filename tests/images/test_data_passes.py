@@ -71,6 +71,20 @@ def test_means(pictures, case, name):
     assert off.max() < MEANS[name] and off.mean() < 0.03 * MEANS[name] + 0.002
 
 
+@pytest.mark.parametrize("case", ["perspective", "panorama"])
+def test_vector(pictures, case):
+    """Pixels that a frame makes: up to ten. Where surfaces of different speed meet, few samples make
+    the mean. (What Cycles says of orthographic cameras that turn is not where Blender sees things.)
+    """
+    ours, theirs = ([one["Vector"] for one in seeds] for seeds in pictures(case))
+    seen = np.all([np.abs(one).max(axis=2) > 0 for one in (*ours, *theirs)], axis=0)
+    a, b = np.mean(ours, axis=0), np.mean(theirs, axis=0)
+    off = np.abs(a - b).max(axis=2)[seen & ~thin(pictures(case)[0][0])]
+    print(f"{case}: mean {off.mean():.4f}, largest {off.max():.3f} of {np.abs(a).max():.1f}")
+    assert seen.mean() > 0.25 and np.abs(a).max() > 3
+    assert off.mean() < 0.01 and off.max() < 0.2
+
+
 @pytest.mark.parametrize("case", data_scenes.CASES)
 @pytest.mark.parametrize("name", FIRST)
 def test_first_samples(pictures, case, name):

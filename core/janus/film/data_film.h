@@ -32,7 +32,7 @@ enum class DataPass : uint8_t {
 struct DataPassInfo {
   const char* name;
   int channels;
-  bool first;  // what the first sample of a pixel sees: means would make no sense
+  bool first;         // what the first sample of a pixel sees: means would make no sense
   bool seen = false;  // the mean over the samples that see a surface, not over all
 
   // Numbers that the film keeps.

@@ -76,12 +76,12 @@ using MeshList = std::vector<std::shared_ptr<const Mesh>>;
 struct Instance {
   uint32_t mesh = 0;
   mat4 to_world = mat4(1.0f);
-  mat3 normal_to_world = mat3(1.0f);  // inverse transpose
+  mat3 normal_to_world = mat3(1.0f);     // inverse transpose
   std::shared_ptr<const Motion> motion;  // null: it stands still
-  std::vector<uint32_t> materials;    // index in Surfaces by slot; never empty
-  int light = -1;                     // index of the mesh light, or -1
-  bool opaque = true;                 // false: rays may pass through parts of it (see Accel)
-  RayMask visibility = kAllRays;      // the rays that meet it
+  std::vector<uint32_t> materials;       // index in Surfaces by slot; never empty
+  int light = -1;                        // index of the mesh light, or -1
+  bool opaque = true;                    // false: rays may pass through parts of it (see Accel)
+  RayMask visibility = kAllRays;         // the rays that meet it
   // The copies of it, with itself, that other rays meet in its place: a range of instances.
   uint32_t first_copy = 0, copies = 1;
   bool holdout = false;                      // InstanceDesc::holdout

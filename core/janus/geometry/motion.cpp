@@ -65,8 +65,8 @@ Bounds Motion::swept(const Bounds& local) const {
   float radius = 0.0f;
   for (const Pose& pose : poses_) {
     const Bounds stretched = transformed(local, mat4(pose.stretch));
-    radius = std::max(radius, glm::length(glm::max(glm::abs(stretched.lower),
-                                                   glm::abs(stretched.upper))));
+    radius = std::max(radius,
+                      glm::length(glm::max(glm::abs(stretched.lower), glm::abs(stretched.upper))));
   }
   for (const Pose& pose : poses_) {
     result.extend(pose.place - radius);

@@ -7,7 +7,7 @@ namespace janus {
 
 uint32_t Surfaces::add_program(Program program, const std::string& material, float material_index) {
   shared_->any_delta = shared_->any_delta || !program.constant() ||
-               std::any_of(program.lobes.begin(), program.lobes.end(), is_delta);
+                       std::any_of(program.lobes.begin(), program.lobes.end(), is_delta);
   shared_->programs.push_back(std::make_unique<const Program>(std::move(program)));
   if (shared_->material_names.empty() || shared_->material_names.back() != material) {
     shared_->material_names.push_back(material);

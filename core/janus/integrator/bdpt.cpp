@@ -117,7 +117,8 @@ class Bdpt final : public BidirectionalIntegrator {
   // Is there light for specular walks to find?
   bool walks_more() const {
     return context_.scene().surfaces.any_delta() && !plain() &&
-           std::ranges::any_of(context_.scene().lights, [](const auto& l) { return l->hittable(); });
+           std::ranges::any_of(context_.scene().lights,
+                               [](const auto& l) { return l->hittable(); });
   }
 
   bool merges() const { return merging_.used() && light_paths_ > 0 && !plain(); }
@@ -125,7 +126,8 @@ class Bdpt final : public BidirectionalIntegrator {
   // Are there paths that camera walks cannot make? A light that cannot be hit, behind a delta.
   bool needs_light_paths() const {
     return context_.scene().surfaces.any_delta() &&
-           std::ranges::any_of(context_.scene().lights, [](const auto& l) { return !l->hittable(); });
+           std::ranges::any_of(context_.scene().lights,
+                               [](const auto& l) { return !l->hittable(); });
   }
 
   void adapt(const Counters& work) {
@@ -337,8 +339,8 @@ class Bdpt final : public BidirectionalIntegrator {
   size_t light_paths_ = 0;                   // of a pass
   uint64_t first_light_path_ = 0;            // of the pass, among all
   CachedPath cached_path_;
-  size_t parts_ = 1;       // of each wave, so that the cache stays small
-  size_t wave_paths_ = 0;  // light paths of the present part
+  size_t parts_ = 1;                     // of each wave, so that the cache stays small
+  size_t wave_paths_ = 0;                // light paths of the present part
   std::optional<AdaptiveCounts> meter_;  // while the counts are measured
   AdaptiveCounts::Moments moments_;
   VertexCache cache_;

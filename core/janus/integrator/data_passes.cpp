@@ -21,10 +21,7 @@ class DataPasses final : public PassIntegrator {
  public:
   DataPasses(const RenderContext& context, const IntegratorSettings& settings,
              const DataSettings& data, DataFilm& film)
-      : PassIntegrator(context, settings),
-        data_(data),
-        film_(film),
-        choice_(film.choice()) {
+      : PassIntegrator(context, settings), data_(data), film_(film), choice_(film.choice()) {
     for (const std::string& name : context.scene().surfaces.material_names()) {
       material_ids_.push_back(id_of(name));
     }

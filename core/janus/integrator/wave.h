@@ -18,9 +18,7 @@ struct Wave {
   size_t end(size_t total) const { return total * (index + 1) / count; }
 
   // Its `index`th part of `count`, as one of all of them.
-  Wave part(size_t part, size_t parts) const {
-    return {pass, index * parts + part, count * parts};
-  }
+  Wave part(size_t part, size_t parts) const { return {pass, index * parts + part, count * parts}; }
 };
 
 }  // namespace janus

@@ -26,8 +26,7 @@ bool crosses(const Bounds& b, const Ray& ray, vec3 inverse) {
 
 }  // namespace
 
-LampIndex::LampIndex(const LightList& lights,
-                     const std::vector<size_t>& lamps) {
+LampIndex::LampIndex(const LightList& lights, const std::vector<size_t>& lamps) {
   std::vector<std::pair<Bounds, uint32_t>> items;
   for (const size_t lamp : lamps) {
     const auto index = static_cast<uint32_t>(lamp);

@@ -105,7 +105,7 @@ class Commit {
 
   void build_accel(const Scene* last) {
     scene_.accel = std::make_shared<const Accel>(scene_.meshes, scene_.instances, cancel_,
-                                           last ? last->accel.get() : nullptr);
+                                                 last ? last->accel.get() : nullptr);
   }
 
   void add_mesh_lights() {
@@ -342,7 +342,8 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   if (camera_->motion.size() == 1) {
     throw SceneError(camera_->name, "motion", "one time is no motion");
   }
-  if (std::ranges::any_of(camera_->shutter, [](float x) { return !(x >= 0.0f) || std::isinf(x); }) ||
+  if (std::ranges::any_of(camera_->shutter,
+                          [](float x) { return !(x >= 0.0f) || std::isinf(x); }) ||
       (!camera_->shutter.empty() && std::ranges::max(camera_->shutter) <= 0.0f)) {
     throw SceneError(camera_->name, "shutter", "the shutter never opens");
   }

@@ -43,7 +43,7 @@ class Exposure {
   std::unique_ptr<Camera> camera_;
   int width_, height_;
   size_t times_ = 1;
-  float shift_ = 0.0f;              // of all times, by the seed
+  float shift_ = 0.0f;               // of all times, by the seed
   std::vector<float> closed_until_;  // by even times: what share of the light has come through
 };
 

@@ -64,9 +64,9 @@ bool renew_lights(Scene& slice, const Scene& scene) {
       continue;
     }
     const auto index = static_cast<size_t>(instance.light);
-    slice.lights[index] =
-        std::make_shared<const MeshLight>(*slice.accel, slice.surfaces, *slice.meshes[instance.mesh],
-                                          slice.instances[i], static_cast<uint32_t>(i));
+    slice.lights[index] = std::make_shared<const MeshLight>(
+        *slice.accel, slice.surfaces, *slice.meshes[instance.mesh], slice.instances[i],
+        static_cast<uint32_t>(i));
     renewed = true;
   }
   return renewed;
@@ -101,8 +101,8 @@ std::shared_ptr<const Scene> at_time(const std::shared_ptr<const Scene>& scene, 
   if (instances_move) {
     move_meshes(*slice, time);
     move_instances(*slice, time);
-    slice->accel = std::make_shared<const Accel>(slice->meshes, slice->instances, cancel,
-                                                 scene->accel.get());
+    slice->accel =
+        std::make_shared<const Accel>(slice->meshes, slice->instances, cancel, scene->accel.get());
   }
   slice->place_objects();
   if (renew_lights(*slice, *scene)) {

@@ -62,8 +62,8 @@ struct InstanceDesc {
   float random = 0.0f;        // a number of the instance's own, in [0, 1]
   // What programs ask of it, by their keys (see shading/node_emitter.h).
   std::map<std::string, vec4> attributes;
-  std::string light_group{};  // where what it emits belongs; empty: nowhere
-  std::string asset{};        // the name by which Cryptomatte knows it as a part; empty: its own
+  std::string light_group{};   // where what it emits belongs; empty: nowhere
+  std::string asset{};         // the name by which Cryptomatte knows it as a part; empty: its own
   std::vector<mat4> motion{};  // transforms at such times; empty: it stands still
 };
 
