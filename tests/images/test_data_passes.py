@@ -73,8 +73,9 @@ def test_means(pictures, case, name):
 
 @pytest.mark.parametrize("case", ["perspective", "panorama"])
 def test_vector(pictures, case):
-    """Pixels, up to ten. Of orthographic cameras that turn, Cycles says what Blender's own projection
-    does not."""
+    """Pixels, up to ten. (Of orthographic cameras that turn, Cycles says what Blender's own
+    projection does not.)
+    """
     ours, theirs = ([one["Vector"] for one in seeds] for seeds in pictures(case))
     seen = np.all([np.abs(one).max(axis=2) > 0 for one in (*ours, *theirs)], axis=0)
     a, b = np.mean(ours, axis=0), np.mean(theirs, axis=0)
