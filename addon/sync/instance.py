@@ -4,12 +4,12 @@
 import numpy as np
 
 from .light import sync_light
+from .linking import Linking
 from .mesh import mesh_arrays
 from .properties import OF_INSTANCE, OF_OBJECT, InstanceProperties, object_attributes
 from .visibility import (
     UNSUPPORTED_TYPES,
     check_hair,
-    check_linking,
     check_object,
     light_group,
     surface_seen_by,
@@ -41,6 +41,7 @@ class InstanceSync:
         """`shown`: of an original object, whether it is part of the picture."""
         self._depsgraph = depsgraph
         self._view_layer = depsgraph.view_layer
+        self._linking = Linking(depsgraph, self._log)
         # What passes read of meshes, whatever the materials.
         self._of_passes = frozenset(["uv:"] if self._view_layer.use_pass_uv else [])
         for instance in depsgraph.object_instances:
@@ -54,7 +55,10 @@ class InstanceSync:
             elif obj.type == "LIGHT":
                 key = self._cache.place("light")
                 matrix = instance.matrix_world
-                sync_light(self._builder, key, obj, matrix, depsgraph, self._images, self._log)
+                links = self._linking.of_light(obj, owner_of(instance))
+                sync_light(
+                    self._builder, key, obj, matrix, depsgraph, self._images, links, self._log
+                )
             elif obj.type in UNSUPPORTED_TYPES:
                 self._log.warning(UNSUPPORTED_TYPES[obj.type], object=obj.name)
 
@@ -104,6 +108,8 @@ class InstanceSync:
             "asset": asset_name(obj),
             "attributes": object_attributes(obj, keys),
             **surface_seen_by(instance, self._view_layer),
+            **self._linking.of_light(obj, owner_of(instance)),
+            **self._linking.of_object(obj, owner_of(instance)),
         }
         return shared, [key for key in keys if key.startswith(OF_INSTANCE)]
 
@@ -138,8 +144,6 @@ class InstanceSync:
         check_hair(obj, self._log)
         if obj.type in SURFACE_TYPES:
             check_object(obj, self._log)
-        elif obj.type == "LIGHT":
-            check_linking(obj, self._log)
 
 
 def owner_of(instance):

@@ -8,8 +8,10 @@ from .graph import read_graph
 from .visibility import LIGHT_RAYS, light_group, seen_by
 
 
-def sync_light(builder, key: str, obj, matrix, depsgraph, images, log) -> None:
-    """Sends the light object `obj` at `matrix`; portals, which emit nothing, are left out."""
+def sync_light(builder, key: str, obj, matrix, depsgraph, images, links: dict, log) -> None:
+    """Sends the light object `obj` at `matrix`; portals, which emit nothing, are left out. `links`:
+    Linking.of_light().
+    """
     light = obj.data
     if getattr(getattr(light, "cycles", None), "is_portal", False):
         log.info("portals are not used for sampling yet", object=obj.name)
@@ -33,6 +35,7 @@ def sync_light(builder, key: str, obj, matrix, depsgraph, images, log) -> None:
         light_group=light_group(obj, depsgraph.view_layer_eval),
         **shape(light),
         **seen_by(obj, LIGHT_RAYS),
+        **links,
     )
 
 

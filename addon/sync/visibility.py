@@ -52,14 +52,6 @@ def check_object(obj, log) -> None:
     """What concerns one object that has a surface."""
     if obj.is_shadow_catcher:
         log.warning("shadow catchers are not supported yet", object=obj.name)
-    check_linking(obj, log)
-
-
-def check_linking(obj, log) -> None:
-    """Light and shadow linking, of emitters and receivers alike."""
-    linking = obj.light_linking
-    if linking.receiver_collection or linking.blocker_collection:
-        log.warning("light linking is not supported yet", object=obj.name)
 
 
 def check_hair(obj, log) -> None:

@@ -41,6 +41,24 @@ RayMask to_mask(bool camera, bool diffuse, bool glossy, bool transmission, bool 
   return mask;
 }
 
+LinkMask to_link_mask(Key key, const char* path, const std::vector<int>& sets, int most) {
+  LinkMask mask = 0;
+  for (const int set : sets) {
+    if (set < 0 || set >= most) {
+      const std::string count = std::to_string(most);
+      throw SceneError(key, path, "must be a set of lights, from 0, of which there are " + count);
+    }
+    mask |= link_bit(set);
+  }
+  return mask;
+}
+
+EmitterLinks to_links(Key key, int receiver_set, int blocker_set) {
+  to_link_mask(key, "receiver_set", {std::max(receiver_set, 0)}, kMostLinkSets);
+  to_link_mask(key, "blocker_set", {std::max(blocker_set, 0)}, kMostShadowSets);
+  return {receiver_set, blocker_set};
+}
+
 // --- Builder
 // --------------------------------------------------------------------------------------
 
@@ -72,8 +90,10 @@ void set_light(SceneBuilder& self, Key key, std::string name, const std::string&
                float spread, float spot_size, float spot_blend, bool spot_square, float angle,
                bool normalize, float exposure, bool visible_camera, bool visible_diffuse,
                bool visible_glossy, bool visible_transmission, bool cast_shadow, int max_bounces,
-               const std::optional<py::dict>& graph, std::string light_group) {
+               const std::optional<py::dict>& graph, std::string light_group, int receiver_set,
+               int blocker_set) {
   LightDesc desc;
+  desc.links = to_links(key, receiver_set, blocker_set);
   desc.light_group = std::move(light_group);
   desc.name = std::move(name);
   desc.type = from_name(kLightTypes, type, "light type");
@@ -243,7 +263,8 @@ void bind_scene(py::module_& m) {
              bool camera, bool diffuse, bool glossy, bool transmission, bool shadow, bool holdout,
              const std::array<float, 4>& color, float object_index, float random,
              const std::map<std::string, std::array<float, 4>>& attributes, std::string light_group,
-             std::string asset) {
+             std::string asset, int receiver_set, int blocker_set, const std::vector<int>& unlit_by,
+             const std::vector<int>& lets_pass) {
             InstanceDesc desc{std::move(name),
                               std::move(mesh),
                               to_matrix(key, transform),
@@ -256,6 +277,9 @@ void bind_scene(py::module_& m) {
                               {},
                               std::move(light_group),
                               std::move(asset)};
+            desc.emitter = to_links(key, receiver_set, blocker_set);
+            desc.receiver = {to_link_mask(key, "unlit_by", unlit_by, kMostLinkSets),
+                             to_link_mask(key, "lets_pass", lets_pass, kMostShadowSets)};
             for (const auto& [name, v] : attributes) {
               desc.attributes[name] = vec4(v[0], v[1], v[2], v[3]);
             }
@@ -267,12 +291,16 @@ void bind_scene(py::module_& m) {
           "visible_shadow"_a = true, "holdout"_a = false,
           "color"_a = std::array{1.0f, 1.0f, 1.0f, 1.0f}, "object_index"_a = 0.0f,
           "random"_a = 0.0f, "attributes"_a = std::map<std::string, std::array<float, 4>>(),
-          "light_group"_a = "", "asset"_a = "",
+          "light_group"_a = "", "asset"_a = "", "receiver_set"_a = -1, "blocker_set"_a = -1,
+          "unlit_by"_a = std::vector<int>(), "lets_pass"_a = std::vector<int>(),
           "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot; "
           "visible_*: the rays that meet it; holdout: leaves a hole in the picture where the "
           "camera "
           "sees it; attributes: four numbers under each key (see set_material()); light_group: "
-          "of what it emits; asset: the name of what it is a part of, for Cryptomatte; the rest is "
+          "of what it emits; asset: the name of what it is a part of, for Cryptomatte; receiver_set, "
+          "blocker_set: numbers of the sets of lights that it is in as a light, which shine on some "
+          "things only, and are blocked by some only (-1: none); unlit_by, lets_pass: those that do "
+          "not shine on it, and that it is not in the way of; the rest is "
           "what the Object Info node says.")
       .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,
            "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f,
@@ -281,9 +309,11 @@ void bind_scene(py::module_& m) {
            "spot_square"_a = false, "angle"_a = 0.0f, "normalize"_a = true, "exposure"_a = 0.0f,
            "visible_camera"_a = true, "visible_diffuse"_a = true, "visible_glossy"_a = true,
            "visible_transmission"_a = true, "cast_shadow"_a = true, "max_bounces"_a = 1024,
-           "graph"_a = py::none(), "light_group"_a = "",
+           "graph"_a = py::none(), "light_group"_a = "", "receiver_set"_a = -1,
+           "blocker_set"_a = -1,
            "A light object, in Blender's words and units: type POINT, SPOT, SUN or AREA; energy in "
-           "watts (sun: W/m^2); angles in radians; shape SQUARE, RECTANGLE, DISK or ELLIPSE.")
+           "watts (sun: W/m^2); angles in radians; shape SQUARE, RECTANGLE, DISK or ELLIPSE; sets "
+           "as in set_instance().")
       .def(
           "set_world",
           [](SceneBuilder& self, std::string name, const std::optional<py::dict>& graph,

@@ -305,17 +305,13 @@ def test_unsupported_things_are_named(scene, export):
         assert expected in text, text
 
 
-def test_particle_hair_and_light_linking_are_named(scene, export):
+def test_particle_hair_is_named(scene, export):
     square = add_square("Lawn")
     square.modifiers.new("Hair", "PARTICLE_SYSTEM")
     settings = square.particle_systems[0].settings
     settings.type, settings.count = "HAIR", 5
-    linked = add_light("POINT", "Choosy")
-    linked.light_linking.receiver_collection = bpy.data.collections.new("Receivers")
     export()
-    text = "\n".join(messages())
-    assert "Object 'Lawn': particle hair" in text
-    assert "Object 'Choosy': light linking" in text
+    assert "Object 'Lawn': particle hair" in "\n".join(messages())
 
 
 def test_findings_are_counted_not_repeated(scene, export):

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include "janus/util/error.h"
@@ -143,19 +144,22 @@ struct View {
 
 // By ray type: the first type that meets the same instances; kRayTypes: it meets all of them.
 std::array<int, kRayTypes> first_alike(const std::vector<Instance>& instances) {
-  const auto sees = [](const Instance& i, int type) {
-    return contains(i.visibility, static_cast<RayType>(type));
+  std::set<RayMask> masks;  // that there are: few, however many instances
+  for (const Instance& instance : instances) {
+    masks.insert(instance.visibility);
+  }
+  const auto sees = [](RayMask mask, int type) {
+    return contains(mask, static_cast<RayType>(type));
   };
   std::array<int, kRayTypes> first;
   for (int type = 0; type < kRayTypes; ++type) {
     first[type] = type;
     for (int other = 0; other < type && first[type] == type; ++other) {
-      if (std::ranges::all_of(instances,
-                              [&](const auto& i) { return sees(i, type) == sees(i, other); })) {
+      if (std::ranges::all_of(masks, [&](RayMask m) { return sees(m, type) == sees(m, other); })) {
         first[type] = first[other];
       }
     }
-    if (std::ranges::all_of(instances, [&](const auto& i) { return sees(i, type); })) {
+    if (std::ranges::all_of(masks, [&](RayMask m) { return sees(m, type); })) {
       first[type] = kRayTypes;
     }
   }

@@ -85,6 +85,8 @@ struct Instance {
   // The copies of it, with itself, that other rays meet in its place: a range of instances.
   uint32_t first_copy = 0, copies = 1;
   bool holdout = false;                      // InstanceDesc::holdout
+  EmitterLinks emitter{};                    // of what it emits
+  LinkMask unlit_by = 0;                     // ReceiverLinks::unlit_by
   vec4 color = vec4(1.0f);                   // what Object Info says: the object's colour,
   float object_index = 0.0f, random = 0.0f;  // its pass index, a number of its own in [0, 1]
   std::string name, light_group, asset;      // of the object (InstanceDesc)

@@ -6,6 +6,7 @@
 
 #include "janus/integrator/camera_trace.h"
 #include "janus/integrator/pass.h"
+#include "janus/render/shadows_ahead.h"
 
 namespace janus {
 
@@ -54,7 +55,7 @@ class PathTracer final : public PassIntegrator {
     // The camera has seen nothing so far but transparent surfaces and clear glass.
     bool clear = true;
     // Where it looks for lights with the rules of shadow rays: what lets them through so far.
-    std::optional<Rgb> through = std::nullopt;
+    const ShadowsAhead* shadows = nullptr;
     CameraTrace* trace = nullptr;  // without light path expressions: none
   };
 
@@ -68,12 +69,15 @@ class PathTracer final : public PassIntegrator {
     if (walk.edges > light.max_edges && !walk.delta) {
       return Rgb(0.0f);
     }
+    if (walk.edges > 1 && !walk.previous.lit_by(light)) {
+      return Rgb(0.0f);
+    }
     Rgb lit(1.0f), beta = walk.beta;
-    if (walk.through) {  // as shadow rays see it
+    if (walk.shadows) {  // as shadow rays see it
       if (hit.by_chance()) {
         return Rgb(0.0f);
       }
-      beta *= light.shadow_ray == RayType::Unblocked ? Rgb(1.0f) : *walk.through;
+      beta *= walk.shadows->through(light.shadow_ray);
     }
     if (settings_.walk.ray_types && walk.edges > 1) {
       lit = seen(light, walk.diffuse, walk.rest, walk.transmitted);
@@ -134,7 +138,7 @@ class PathTracer final : public PassIntegrator {
   // the walk sees other things than they do, it takes a ray of its own for that.
   bool looks_apart(const Walk& walk) const {
     return settings_.walk.ray_types && walk.edges > 1 && !walk.delta &&
-           (context_.scene().has_unblocked ||
+           (context_.scene().has_own_shadows ||
             !context_.scene().accel->alike(walk.type, RayType::Shadow));
   }
 
@@ -142,7 +146,8 @@ class PathTracer final : public PassIntegrator {
     const Scene& scene = context_.scene();
     const vec3 d = walk.ray.direction;
     Rgb sum(0.0f);
-    walk.through = Rgb(1.0f);
+    ShadowsAhead shadows(scene.shadow_types, walk.crossings, settings_.walk.max_crossings);
+    walk.shadows = &shadows;
     for (;;) {
       ++counters.camera_rays;
       SurfaceInteraction hit;
@@ -151,7 +156,6 @@ class PathTracer final : public PassIntegrator {
       }
       const float t_end = glm::length(hit.p - walk.ray.origin);
       sum += lamps(walk, t_end);
-      std::optional<Rgb> transparency;  // of the copy that shadow rays meet
       const Instance& met = scene.instances[hit.instance];
       for (uint32_t copy = met.first_copy; copy < met.first_copy + met.copies; ++copy) {
         scene.turn_to_copy(hit, copy);
@@ -159,18 +163,10 @@ class PathTracer final : public PassIntegrator {
         if (size_t index; const MeshLight* light = scene.mesh_light(hit, index)) {
           sum += found(walk, index, light->at(hit, walk.previous.p, d, shading.emission));
         }
-        if (contains(scene.instances[copy].visibility, RayType::Shadow)) {
-          transparency = shading.transparency;
-        }
+        shadows.meet(scene.instances[copy].visibility, shading.transparency);
       }
-      if (transparency) {
-        *walk.through *= *transparency;
-        if (++walk.crossings > settings_.walk.max_crossings) {
-          walk.through = Rgb(0.0f);
-        }
-        if (is_black(*walk.through) && !scene.has_unblocked) {
-          return sum;
-        }
+      if (shadows.ended()) {
+        return sum;
       }
       walk.origin = offset_origin(hit.p, hit.ng, hit.offset, d);
       walk.t_begin = t_end;
@@ -289,7 +285,7 @@ class PathTracer final : public PassIntegrator {
       const Ray next{offset_origin(hit->p, hit->ng, hit->offset, sample->direction),
                      sample->direction};
       walk = Walk{.ray = next,
-                  .previous = receiver(*hit, bsdf, wo),
+                  .previous = scene.receiver(*hit, bsdf.transmits(), wo),
                   .origin = next.origin,
                   .pdf_solid = sample->pdf_solid,
                   .delta = sample->delta,
@@ -343,11 +339,11 @@ class PathTracer final : public PassIntegrator {
     const Scene& scene = context_.scene();
     const float u_light = sampler.next_1d();
     const vec2 u = sampler.next_2d();
-    const LightChoice choice =
-        scene.light_sampler.sample_illumination(receiver(hit, bsdf, wo), u_light);
+    const Receiver receiver = scene.receiver(hit, bsdf.transmits(), wo);
+    const LightChoice choice = scene.light_sampler.sample_illumination(receiver, u_light);
     const Light& light = *scene.lights[choice.light];
     const auto sample = light.sample_illumination(hit.p, choice.primitive, u);
-    if (!sample || walk.edges + 1 > light.max_edges) {
+    if (!sample || walk.edges + 1 > light.max_edges || !receiver.lit_by(light)) {
       return Rgb(0.0f);
     }
     const BsdfEval e = bsdf.evaluate(wo, sample->wi, TransportMode::Radiance);

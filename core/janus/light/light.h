@@ -82,6 +82,7 @@ struct Emitter {
   vec3 axis = vec3(0.0f, 0.0f, 1.0f);
   float theta_o = kPi, theta_e = 0.5f * kPi;
   bool two_sided = false;  // likewise around the opposite axis
+  LinkMask links = kLightsAll;  // what it shines on (scene/linking.h)
   bool infinite = false;
 };
 
@@ -94,16 +95,23 @@ class Light {
 
   std::string name, light_group;
   RayMask visibility = kAllRays;         // the camera, and the labels of z_1, that see it
-  RayType shadow_ray = RayType::Shadow;  // or Unblocked
+  RayType shadow_ray = RayType::Shadow;  // or Unblocked, or one of its own
+  int link_set = -1;                     // EmitterLinks::receivers
   // Edges of the paths on which next event estimation may find it, whichever technique does.
   int max_edges = 1 << 20;
   bool background = false;  // the world: a transparent film leaves it out
   bool holdout = false;     // part of an object that holds out
 
+  void set_links(const EmitterLinks& links) {
+    link_set = links.receivers;
+    shadow_ray = links.blockers < 0 ? RayType::Shadow : shadow_ray_of(links.blockers);
+  }
+
   // Takes the rules of a light object.
   void set_rules(const LightDesc& desc) {
     visibility = desc.visibility;
-    shadow_ray = desc.cast_shadow ? RayType::Shadow : RayType::Unblocked;
+    set_links(desc.links);
+    shadow_ray = desc.cast_shadow ? shadow_ray : RayType::Unblocked;
     max_edges = desc.max_bounces + 2;
   }
 

@@ -43,6 +43,7 @@ LightSampler::LightSampler(const LightList& lights) {
     uint32_t primitive = 0;
     for (Emitter& emitter : lights[i]->emitters()) {
       emitter.strength = shines ? emitter.strength : 0.0f;
+      emitter.links = link_bit(lights[i]->link_set);
       const EmitterId id{light, primitive++};
       if (!emitter.infinite) {
         finite.push_back(emitter);
@@ -50,7 +51,7 @@ LightSampler::LightSampler(const LightList& lights) {
       } else if (emitter.strength > 0.0f) {
         infinite_of_.back() = static_cast<int32_t>(infinite_.size());
         infinite_.push_back({id, emitter.axis, cos_sin(emitter.theta_o).x,
-                             cos_sin(emitter.theta_o).y, emitter.strength});
+                             cos_sin(emitter.theta_o).y, emitter.strength, emitter.links});
       }
     }
   }
@@ -59,6 +60,9 @@ LightSampler::LightSampler(const LightList& lights) {
 }
 
 float LightSampler::importance(const Infinite& light, const Receiver& receiver) {
+  if (!shines_on(light.links, receiver.unlit_by)) {
+    return 0.0f;
+  }
   return light.strength * cos_receiver(receiver, light.axis, light.cos_o, light.sin_o);
 }
 

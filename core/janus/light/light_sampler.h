@@ -44,6 +44,7 @@ class LightSampler {
     EmitterId id;
     vec3 axis;
     float cos_o, sin_o, strength;
+    LinkMask links;
   };
   static float importance(const Infinite& light, const Receiver& receiver);
   float infinite_importance(const Receiver& receiver) const;

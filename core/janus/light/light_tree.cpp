@@ -120,14 +120,16 @@ struct LightTree::Build {
   void node(size_t begin, size_t end, uint64_t bits, int depth) {
     const size_t index = tree.nodes_.size();
     Cluster all;
+    LinkMask links = 0;
     for (size_t i = begin; i < end; ++i) {
       all.extend(cluster_of(emitters[order[i]]));
+      links |= emitters[order[i]].links;
     }
     const Cone& cone = all.cone;
     tree.nodes_.push_back(
         {all.bounds.center(), all.bounds.radius(), cone.axis, static_cast<float>(all.strength),
          static_cast<float>(std::cos(cone.theta_o)), static_cast<float>(std::sin(cone.theta_o)),
-         static_cast<float>(std::cos(cone.theta_e)), 0, cone.two_sided});
+         static_cast<float>(std::cos(cone.theta_e)), links, 0, cone.two_sided});
     if (end - begin == 1) {
       tree.nodes_[index].next = kLeaf | order[begin];
       tree.trails_[order[begin]] = {bits, depth};
@@ -205,6 +207,9 @@ LightTree::LightTree(const std::vector<Emitter>& emitters) : trails_(emitters.si
 }
 
 float LightTree::importance(const Node& node, const Receiver& receiver) {
+  if (!shines_on(node.links, receiver.unlit_by)) {
+    return 0.0f;
+  }
   const vec3 d = node.center - receiver.p;
   const float d2 = length2(d), r2 = sqr(node.radius);
   float cosines = 1.0f;

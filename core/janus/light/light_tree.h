@@ -19,6 +19,9 @@ struct Receiver {
   vec3 p;
   vec3 n;
   bool two_sided;  // can light from behind `n` matter? (transmission)
+  LinkMask unlit_by = 0;  // ReceiverLinks
+
+  bool lit_by(const Light& light) const { return shines_on(link_bit(light.link_set), unlit_by); }
 };
 
 // About the cosine at which a surface of `receiver` sees light from within an angle (`cos_b`,
@@ -57,7 +60,8 @@ class LightTree {
     vec3 axis;
     float strength;             // sum
     float cos_o, sin_o, cos_e;  // bounds of theta_o and theta_e
-    uint32_t next;  // leaf: kLeaf | emitter; else the right child (the left one comes next)
+    LinkMask links;  // of all
+    uint32_t next;   // leaf: kLeaf | emitter; else the right child (the left one comes next)
     bool two_sided;
   };
 

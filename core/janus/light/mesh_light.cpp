@@ -13,6 +13,7 @@ MeshLight::MeshLight(const Accel& accel, const Surfaces& surfaces, const Mesh& m
   light_group = instance.light_group;
   visibility = instance.visibility;
   holdout = instance.holdout;
+  set_links(instance.emitter);
   const mat3 linear(instance.to_world);
   std::vector<float> weights;
   for (uint32_t i = 0; i < slot_.size(); ++i) {

@@ -3,15 +3,19 @@
 
 #include <algorithm>
 
+#include "janus/render/shadows_ahead.h"
+
 namespace janus {
 
 namespace {
+
+constexpr size_t kLooks = 8;  // that an instance has for different rays, at most
 
 // What is where a light walk meets a surface: one instance, or copies of it for different rays.
 struct Place {
   Rgb transparency = Rgb(1.0f);  // for the segment that leads there
   bool blocks = false;           // does it count as a crossing?
-  float albedo[kRayTypes] = {};  // of the copies that the walk may end at
+  float albedo[kLooks] = {};  // of the copies that the walk may end at
   float sum = 0.0f;
 };
 
@@ -120,15 +124,11 @@ DrawnTypes draw_types(const Accel& accel, RayMask possible, Sampler& sampler) {
 void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossings,
                      int max_crossings, uint64_t& rays,
                      const std::function<void(size_t, const LightHit&, Rgb)>& found) {
-  Rgb through(1.0f);
-  // What casts no shadows is seen through everything.
+  ShadowsAhead shadows(scene.shadow_types, crossings, max_crossings);
   const auto report = [&](size_t index, const LightHit& light) {
-    if (light.by_chance()) {
-      return;
-    }
-    const bool blocked = scene.lights[index]->shadow_ray == RayType::Shadow;
-    if (!blocked || !is_black(through)) {
-      found(index, light, blocked ? through : Rgb(1.0f));
+    const Rgb through = shadows.through(scene.lights[index]->shadow_ray);
+    if (!light.by_chance() && !is_black(through)) {
+      found(index, light, through);
     }
   };
   Ray segment = ray;
@@ -144,8 +144,6 @@ void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossing
       return;
     }
     const Instance& met = scene.instances[hit.instance];
-    Rgb transparency(1.0f);
-    bool blocks = false;
     for (uint32_t i = 0; i < met.copies; ++i) {
       scene.turn_to_copy(hit, met.first_copy + i);
       scene.shade(hit, -ray.direction, shading);
@@ -154,16 +152,10 @@ void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossing
           report(index, light->at(hit, from, ray.direction, shading.emission));
         }
       }
-      if (contains(scene.instances[hit.instance].visibility, RayType::Shadow)) {
-        blocks = true;
-        transparency = shading.transparency;
-      }
+      shadows.meet(scene.instances[hit.instance].visibility, shading.transparency);
     }
-    if (blocks) {
-      through *= crossings++ < max_crossings ? transparency : Rgb(0.0f);
-      if (is_black(through) && !scene.has_unblocked) {
-        return;
-      }
+    if (shadows.ended()) {
+      return;
     }
     segment.origin = offset_origin(hit.p, hit.ng, hit.offset, ray.direction);
     segment.t_max = ray.t_max - t_end;

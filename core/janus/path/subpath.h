@@ -187,9 +187,13 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   if (!usable_density(joint) || is_black(v.beta)) {
     return;
   }
-  const float pdf_nee = scene.light_sampler.pmf_illumination(receiver(v.hit, v.bsdf(), v.back),
-                                                             index, emission->primitive) *
-                        light.pdf_illumination(*emission, *endpoint, v.hit.p);
+  const Receiver receiver = scene.receiver(v.hit, v.bsdf().transmits(), v.back);
+  if (!receiver.lit_by(light)) {
+    return;
+  }
+  const float pdf_nee =
+      scene.light_sampler.pmf_illumination(receiver, index, emission->primitive) *
+      light.pdf_illumination(*emission, *endpoint, v.hit.p);
   v.light_end = {joint, pdf_nee, light.hittable(), v.back};
   v.mis = mis.begin_light(joint, pdf_nee, light.hittable());
   float eta_scale = 1.0f;
@@ -273,7 +277,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     const RayType type = v.edges == 1 ? RayType::Camera : step.label;
     // Is the light ahead seen otherwise than the next vertex?
     const bool shadow_ray = settings.ray_types && v.edges > 1 && !step.left.delta &&
-                            (scene.has_unblocked || !scene.accel->alike(type, RayType::Shadow));
+                            (scene.has_own_shadows || !scene.accel->alike(type, RayType::Shadow));
     const auto found = [&](size_t index, const LightHit& hit, Rgb beta) {
       const Light& light = *scene.lights[index];
       if (v.clear && hidden_in_clear_view(light, settings)) {
@@ -285,7 +289,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
         }
         return;
       }
-      if (v.edges > light.max_edges && !step.left.delta) {
+      if ((v.edges > light.max_edges && !step.left.delta) || !previous.lit_by(light)) {
         return;
       }
       if (settings.ray_types) {
@@ -365,7 +369,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     if (settings.counts()) {
       v.bounces = v.bounces.with(step.label);
     }
-    previous = receiver(v.hit, v.bsdf(), v.back);
+    previous = scene.receiver(v.hit, v.bsdf().transmits(), v.back);
     v.beta = step.beta;
     v.clear = step.clear;
   }

@@ -65,16 +65,9 @@ struct PathVertex {
     if (edges > 1 || delta) {
       return segment & kLabels;
     }
-    constexpr RayMask kBySampling = ray_bit(RayType::Shadow) | ray_bit(RayType::Unblocked);
-    return (segment & kBySampling) != 0 ? kLabels : 0;
+    return (segment & kShadowRays) != 0 ? kLabels : 0;
   }
 };
-
-// The vertex as the choice of a light sees it; `side`: a direction on its camera side (or, for a
-// surface that does not transmit, on its light side).
-inline Receiver receiver(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 side) {
-  return {hit.p, dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, bsdf.transmits()};
-}
 
 // Survival probability of a walk. It divides the throughput and appears in no density.
 inline float survival(Rgb throughput, float eta_scale, int bounces) {

@@ -72,6 +72,8 @@ class Commit {
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;
       instance.holdout = desc.holdout;
+      instance.emitter = desc.emitter;
+      instance.unlit_by = desc.receiver.unlit_by;
       if (!is_placement(desc.transform)) {
         warn(name, "its transform is flat or not finite; the object is left out");
         continue;
@@ -90,6 +92,7 @@ class Commit {
       for (const auto& [programs, rays] : by_look) {
         Instance seen = instance;
         seen.visibility &= rays;
+        add_shadow_types(seen, desc.receiver);
         for (const uint32_t program : programs) {
           seen.materials.push_back(
               scene_.surfaces.bind(program, *scene_.meshes[seen.mesh], desc.attributes));
@@ -163,9 +166,12 @@ class Commit {
                             [&](const auto& i) { return partial(i.visibility, kAllRays); }) ||
         std::ranges::any_of(scene_.lights,
                             [&](const auto& l) { return partial(l->visibility, kLabels); });
-    scene_.has_unblocked = std::ranges::any_of(
-        scene_.lights, [](const auto& l) { return l->shadow_ray == RayType::Unblocked; });
-    scene_.has_ray_types = scene_.has_ray_types || scene_.has_unblocked;
+    for (const auto& light : scene_.lights) {
+      scene_.shadow_types |= ray_bit(light->shadow_ray);
+      scene_.has_links = scene_.has_links || light->link_set >= 0;
+    }
+    scene_.has_own_shadows = (scene_.shadow_types & ~ray_bit(RayType::Shadow)) != 0;
+    scene_.has_ray_types = scene_.has_ray_types || scene_.has_own_shadows;
     scene_.lamp_index = LampIndex(scene_.lights, scene_.lamps);
     scene_.light_sampler = LightSampler(scene_.lights);
   }
@@ -173,6 +179,17 @@ class Commit {
  private:
   void warn(const std::string& object, const std::string& message) {
     scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
+  }
+
+  // What stands in the way of a light's shadow rays of their own type.
+  static void add_shadow_types(Instance& instance, const ReceiverLinks& links) {
+    if (!contains(instance.visibility, RayType::Shadow)) {
+      return;
+    }
+    for (int set = 0; set < kMostShadowSets; ++set) {
+      const bool passes = (links.lets_pass & link_bit(set)) != 0;
+      instance.visibility |= passes ? 0 : ray_bit(shadow_ray_of(set));
+    }
   }
 
   std::vector<uint32_t> programs_of(const std::string& key, const InstanceDesc& desc,

@@ -72,6 +72,13 @@ class Scene {
     return result;
   }
 
+  // A surface as the choice of a light sees it; `side`: a direction on its camera side (or, for one
+  // that does not transmit, on its light side).
+  Receiver receiver(const SurfaceInteraction& hit, bool transmits, vec3 side) const {
+    return {hit.p, dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, transmits,
+            has_links ? instances[hit.instance].unlit_by : 0};
+  }
+
   // The emitter that a surface is part of, if light paths can start on it.
   const MeshLight* mesh_light(const SurfaceInteraction& hit, size_t& index) const {
     const int light = instances[hit.instance].light;
@@ -91,7 +98,9 @@ class Scene {
   LampIndex lamp_index;
   LightSampler light_sampler;
   bool has_transparency = false;  // of some surface
-  bool has_unblocked = false;     // some light casts no shadows
+  RayMask shadow_types = 0;       // shadow rays of the lights
+  bool has_own_shadows = false;   // some are not RayType::Shadow
+  bool has_links = false;         // some light does not shine on everything
   bool has_ray_types = false;     // that, or some object or light is not visible to all rays
   bool has_holdouts = false;      // of some object or surface
   CameraDesc camera;

@@ -12,6 +12,7 @@
 
 #include "janus/image/image.h"
 #include "janus/math/vec.h"
+#include "janus/scene/linking.h"
 #include "janus/scene/node_graph.h"
 #include "janus/scene/ray_type.h"
 
@@ -65,6 +66,8 @@ struct InstanceDesc {
   std::string light_group{};   // where what it emits belongs; empty: nowhere
   std::string asset{};         // the name by which Cryptomatte knows it as a part; empty: its own
   std::vector<mat4> motion{};  // transforms at such times; empty: it stands still
+  EmitterLinks emitter{};
+  ReceiverLinks receiver{};
 };
 
 struct MaterialDesc {
@@ -106,6 +109,7 @@ struct LightDesc {
   int max_bounces = 1024;          // of the paths that it lights
   std::optional<NodeGraph> graph;  // the light's own node tree
   std::string light_group{};       // empty: none
+  EmitterLinks links{};
 };
 
 struct WorldDesc {

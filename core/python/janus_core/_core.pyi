@@ -171,6 +171,10 @@ class SceneBuilder:
         attributes: Mapping[str, Sequence[float]] = ...,
         light_group: str = "",
         asset: str = "",
+        receiver_set: int = -1,
+        blocker_set: int = -1,
+        unlit_by: Sequence[int] = (),
+        lets_pass: Sequence[int] = (),
     ) -> None:
         """Places the mesh with the key `mesh` in the world.
 
@@ -179,6 +183,10 @@ class SceneBuilder:
         leaves a hole where the camera sees it. attributes: four numbers under each key that
         set_material() gives of an instance. light_group: of what it emits, for expressions.
         asset: the name of what it is a part of, for Cryptomatte; empty: its own.
+        Light linking: receiver_set and blocker_set are numbers of the sets of lights that it is in
+        as a light, below 63 and below 24, which shine on some things only, and which only some
+        block (-1: none); unlit_by and lets_pass are the sets that do not shine on it, and that it
+        is not in the way of.
         """
     def set_light(
         self,
@@ -209,6 +217,8 @@ class SceneBuilder:
         max_bounces: int = 1024,
         graph: Mapping[str, Any] | None = None,
         light_group: str = "",
+        receiver_set: int = -1,
+        blocker_set: int = -1,
     ) -> None:
         """A light object, which shines along its -z.
 
