@@ -6,23 +6,35 @@
 #include "janus/render/lamp.h"
 #include "janus/render/onlookers.h"
 #include "janus/render/world.h"
+#include "janus/scene/panorama.h"
 #include "janus/shading/compiler.h"
 #include "janus/util/error.h"
 
 namespace janus {
 
-// The camera looks along +z in Cycles; panoramas look along +x, with +z up.
+// The camera looks along +z in Cycles; panoramas look along +x, with +z up; the mirror ball along
+// -y, with +z up and +x to the right.
 CameraView view_of(const CameraDesc& camera) {
   mat4 turn(1.0f);
   turn[2][2] = -1.0f;
-  if (camera.type == CameraType::Equirectangular) {
+  if (camera.type == CameraType::MirrorBall) {
+    turn = mat4(0.0f);
+    turn[0][0] = turn[1][2] = turn[2][1] = turn[3][3] = 1.0f;
+  } else if (is_panorama(camera.type)) {
     turn = mat4(0.0f);
     turn[0][1] = turn[2][0] = -1.0f;
     turn[1][2] = turn[3][3] = 1.0f;
   }
   const mat4 from_world = turn * glm::inverse(camera.transform);
-  return {camera.type,   from_world, glm::inverse(from_world), camera.left, camera.right,
-          camera.bottom, camera.top};
+  const vec2 shift = camera.shift * vec2(camera.right - camera.left, camera.top - camera.bottom);
+  return {camera.type,
+          from_world,
+          glm::inverse(from_world),
+          camera.left - shift.x,
+          camera.right - shift.x,
+          camera.bottom - shift.y,
+          camera.top - shift.y,
+          camera.fisheye};
 }
 
 namespace {
@@ -113,7 +125,8 @@ class Commit {
 
   void set_objects(const CameraDesc& camera) {
     const float pixel =
-        camera.pixel_size > 0.0f ? camera.pixel_size : 1e-3f * (camera.top - camera.bottom);
+        pixel_scale(camera.type, camera.fisheye) *
+        (camera.pixel_size > 0.0f ? camera.pixel_size : 1e-3f * (camera.top - camera.bottom));
     const bool parallel = camera.type == CameraType::Orthographic;
     scene_.surfaces.set_objects(
         scene_.meshes, scene_.instances, view_of(camera),
@@ -291,9 +304,13 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   if (!(camera_->clip_end > camera_->clip_start) || !(camera_->clip_start >= 0.0f)) {
     throw SceneError(camera_->name, "camera", "its clipping range is empty");
   }
+  const CameraView view = view_of(*camera_);
   if (camera_->type == CameraType::Equirectangular &&
-      !(std::max(std::abs(camera_->bottom), std::abs(camera_->top)) <= 1.0001f * 0.5f * kPi)) {
+      !(std::max(std::abs(view.bottom), std::abs(view.top)) <= 1.0001f * 0.5f * kPi)) {
     throw SceneError(camera_->name, "camera", "its latitudes go beyond the poles");
+  }
+  if (is_panorama(camera_->type) && !usable_fisheye(camera_->fisheye)) {
+    throw SceneError(camera_->name, "camera", "its fisheye sees nothing, or without end");
   }
   if (!(camera_->aperture_radius >= 0.0f) || !std::isfinite(camera_->aperture_radius) ||
       !(camera_->focus_distance >= 0.0f) || !std::isfinite(camera_->focus_distance) ||
