@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import data, diagnostics, engine_panels, material, passes, presets, scene
+from . import camera, data, diagnostics, engine_panels, material, passes, presets, scene
 
 CLASSES = (
     *presets.CLASSES,
@@ -12,6 +12,7 @@ CLASSES = (
     *passes.CLASSES,
     *material.CLASSES,
     *data.CLASSES,
+    *camera.CLASSES,
 )
 
 
