@@ -101,6 +101,21 @@ CASES = {
         "central_cylindrical_range_v_max": 2.0,
         "central_cylindrical_radius": 1.5,
     },
+    # What materials are told of a camera: "coordinates" is an output of Texture Coordinate.
+    "fisheye_window": {
+        "panorama_type": "FISHEYE_EQUIDISTANT",
+        "fisheye_fov": 2.8,
+        "shift_x": 0.2,
+        "coordinates": "Window",
+    },
+    "polynomial_window": {
+        "panorama_type": "FISHEYE_LENS_POLYNOMIAL",
+        "fisheye_fov": 2.4,
+        "coordinates": "Window",
+    },
+    "mirror_ball_window": {"panorama_type": "MIRRORBALL", "coordinates": "Window"},
+    "mirror_ball_camera": {"panorama_type": "MIRRORBALL", "coordinates": "Camera"},
+    "cylinder_window": {"panorama_type": "CENTRAL_CYLINDRICAL", "coordinates": "Window"},
     "fisheye_lens": {"panorama_type": "FISHEYE_EQUIDISTANT", "fisheye_fov": 2.8, **OPEN},
     "equisolid_lens": {"panorama_type": "FISHEYE_EQUISOLID", "fisheye_lens": 9.0, **OPEN},
     "polynomial_lens": {
@@ -137,8 +152,26 @@ def build(case: str):
     behind.location = (-0.8, -2.3, 0.1)
     kit.area_light(scene, "Lamp", (0.5, 0.8, 2.5), (0.2, 1.0, 0.0), (1.5, 1.0), 60.0)
     kit.camera(scene, (-0.2, -1.6, 1.3), (0.2, 2.0, 0.8), lens=24.0)
-    change(scene, CASES[case])
+    settings = dict(CASES[case])
+    coordinates = settings.pop("coordinates", None)
+    if coordinates:
+        bpy.data.objects.remove(scene.objects["Lamp"])
+        for material in bpy.data.materials:
+            show(material, coordinates)
+    change(scene, settings)
     return scene
+
+
+def show(material, coordinates: str) -> None:
+    """Makes a material shine in the coordinates where it is, made positive."""
+    tree = material.node_tree
+    tree.nodes.clear()
+    source, size = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes.new("ShaderNodeVectorMath")
+    light, output = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputMaterial")
+    size.operation = "ABSOLUTE"
+    tree.links.new(source.outputs[coordinates], size.inputs[0])
+    tree.links.new(size.outputs[0], light.inputs["Color"])
+    tree.links.new(light.outputs[0], output.inputs["Surface"])
 
 
 def change(scene, settings: dict) -> None:

@@ -247,6 +247,7 @@ dvec2 window_place(CameraType type, const FisheyeDesc& fisheye, dvec3 d) {
   }
 }
 
+// Cycles looks from pixel to pixel: towards the border of its film a panorama may have others.
 float pixel_scale(CameraType type, const FisheyeDesc& fisheye) {
   switch (type) {
     case CameraType::FisheyeEquisolid:

@@ -40,7 +40,7 @@ class Panorama {
     dvec3 direction;     // unit
     double solid_angle;  // steradians per unit of area on the film
   };
-  // nullopt outside the field of view: there is neither light nor alpha there.
+  // nullopt outside the field of view.
   std::optional<View> look(dvec2 place) const;
 
   // Places of the film; room for all that see two directions, however a fisheye folds.
