@@ -4,16 +4,8 @@
 import numpy as np
 
 from ..report import RenderRefused
+from .panorama import PANORAMAS, film, panorama, pixel_size
 from .settings import frame_size
-
-PANORAMAS = {
-    "EQUIANGULAR_CUBEMAP_FACE": "an equiangular cubemap face",
-    "MIRRORBALL": "a mirror ball",
-    "FISHEYE_EQUIDISTANT": "an equidistant fisheye",
-    "FISHEYE_EQUISOLID": "an equisolid fisheye",
-    "FISHEYE_LENS_POLYNOMIAL": "a polynomial fisheye",
-    "CENTRAL_CYLINDRICAL": "a central cylindrical panorama",
-}
 
 
 def sync_camera(builder, depsgraph, log) -> tuple[float, float, float, float]:
@@ -28,44 +20,39 @@ def sync_camera(builder, depsgraph, log) -> tuple[float, float, float, float]:
     data = camera.data
     kind = camera_type(camera)
     transform = without_scale(camera.matrix_world)
-    if kind == "EQUIRECTANGULAR":
-        pano = panorama(data)
-        frame = (pano.longitude_min, pano.longitude_max, pano.latitude_min, pano.latitude_max)
+    width, height = frame_size(scene.render)
+    if kind in PANORAMAS:
+        seen = film(data, scene.render)
+        seen["pixel_size"] = pixel_size(seen["window"], width, height)
     else:
         frame = window(camera, depsgraph, scene.render)
+        seen = {"type": kind, "window": frame, "pixel_size": (frame[3] - frame[2]) / height}
     builder.set_camera(
         name=camera.name,
-        type=kind,
         transform=transform,
-        window=frame,
         clip_start=data.clip_start,
         clip_end=data.clip_end,
-        pixel_size=(frame[3] - frame[2]) / frame_size(scene.render)[1],
+        **seen,
         **(lens(data, transform, depsgraph) if data.dof.use_dof else {}),
     )
     return frame
 
 
 def camera_type(camera) -> str:
-    """PERSP, ORTHO or EQUIRECTANGULAR. Raises RenderRefused for all others, with their name."""
+    """PERSP, ORTHO or one of PANORAMAS. Raises RenderRefused for all others, with their name."""
     kind = camera.data.type
     if kind in ("PERSP", "ORTHO"):
         return kind
     what = f"a {kind.lower()} camera"
     if kind == "PANO":
         projection = panorama(camera.data).panorama_type
-        if projection == "EQUIRECTANGULAR":
+        if projection in PANORAMAS:
             return projection
-        what = PANORAMAS.get(projection, f"a panorama of type {projection}")
+        what = f"a panorama of type {projection}"
     raise RenderRefused(
         f"Camera '{camera.name}' is {what}: Janus renders perspective, orthographic and "
-        "equirectangular cameras, so far"
+        "panoramic cameras"
     )
-
-
-def panorama(data):
-    """Where this Blender keeps the settings of panoramas: before 5.0 they were Cycles' own."""
-    return data if hasattr(data, "panorama_type") else data.cycles
 
 
 def lens(data, transform, depsgraph) -> dict:

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .camera import camera_type, lens, panorama, window, window_of, without_scale
+from .camera import camera_type, lens, window, window_of, without_scale
+from .panorama import PANORAMAS, film, pixel_size
 
 
 @dataclass(frozen=True)
@@ -52,8 +53,8 @@ def read_view(region, rv3d, space, depsgraph) -> View:
     frame = frame_in_region(camera, depsgraph, rv3d, width, height)
     kind = camera_type(camera)
     border = border_of(scene.render, scene.render.use_border)
-    if kind == "EQUIRECTANGULAR":  # no matrix: it fills its frame, whatever the region
-        return panoramic_view(camera, frame, border, width, height)
+    if kind in PANORAMAS:  # no matrix: it fills its frame, whatever the region
+        return panoramic_view(camera, frame, border, width, height, depsgraph)
     crop = pixels(border, frame, width, height) if border else None
     arguments = projected(rv3d, height, camera.data.clip_start, camera.data.clip_end)
     arguments |= {"name": camera.name, "type": kind}
@@ -109,20 +110,20 @@ def frame_in_region(camera, depsgraph, rv3d, width: int, height: int):
     return x[0], y[0], x[1], y[1]
 
 
-def panoramic_view(camera, frame, border, width: int, height: int) -> View:
-    pano = panorama(camera.data)
+def panoramic_view(camera, frame, border, width: int, height: int, depsgraph) -> View:
+    data = camera.data
     x, y = round(frame[0]), round(frame[1])
     full = max(round(frame[2]) - x, 1), max(round(frame[3]) - y, 1)
-    sides = (pano.longitude_min, pano.longitude_max, pano.latitude_min, pano.latitude_max)
     arguments = {
         "name": camera.name,
-        "type": "EQUIRECTANGULAR",
         "transform": without_scale(camera.matrix_world),
-        "window": sides,
-        "clip_start": camera.data.clip_start,
-        "clip_end": camera.data.clip_end,
-        "pixel_size": (sides[3] - sides[2]) / full[1],
+        "clip_start": data.clip_start,
+        "clip_end": data.clip_end,
+        **film(data, depsgraph.scene_eval.render),
     }
+    arguments["pixel_size"] = pixel_size(arguments["window"], *full)
+    if data.dof.use_dof:
+        arguments |= lens(data, arguments["transform"], depsgraph)
     # Zoomed in, the frame is larger than the region.
     inside = pixels(border or (0.0, 0.0, 1.0, 1.0), frame, width, height)
     crop = tuple(

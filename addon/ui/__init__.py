@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import data, diagnostics, engine_panels, material, motion, passes, presets, scene
+from . import camera, data, diagnostics, engine_panels, material, motion, passes, presets, scene
 
 CLASSES = (
     *presets.CLASSES,
@@ -13,6 +13,7 @@ CLASSES = (
     *passes.CLASSES,
     *material.CLASSES,
     *data.CLASSES,
+    *camera.CLASSES,
 )
 
 

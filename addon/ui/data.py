@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""World and light properties. Cameras and objects have Blender's own panels."""
+"""World and light properties. Objects have Blender's own panels."""
 
 import bpy
 

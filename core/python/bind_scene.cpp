@@ -22,9 +22,16 @@ constexpr EnumName<AreaShape> kAreaShapes[] = {{"SQUARE", AreaShape::Square},
                                                {"ELLIPSE", AreaShape::Ellipse}};
 constexpr py::ssize_t kMaxImageSide = 1 << 16;
 constexpr double kPollSeconds = 0.05;
-constexpr EnumName<CameraType> kCameraTypes[] = {{"PERSP", CameraType::Perspective},
-                                                 {"ORTHO", CameraType::Orthographic},
-                                                 {"EQUIRECTANGULAR", CameraType::Equirectangular}};
+constexpr EnumName<CameraType> kCameraTypes[] = {
+    {"PERSP", CameraType::Perspective},
+    {"ORTHO", CameraType::Orthographic},
+    {"EQUIRECTANGULAR", CameraType::Equirectangular},
+    {"FISHEYE_EQUIDISTANT", CameraType::FisheyeEquidistant},
+    {"FISHEYE_EQUISOLID", CameraType::FisheyeEquisolid},
+    {"FISHEYE_LENS_POLYNOMIAL", CameraType::FisheyeLensPolynomial},
+    {"MIRRORBALL", CameraType::MirrorBall},
+    {"EQUIANGULAR_CUBEMAP_FACE", CameraType::EquiangularCubemapFace},
+    {"CENTRAL_CYLINDRICAL", CameraType::CentralCylindrical}};
 constexpr EnumName<Severity> kSeverities[] = {
     {"INFO", Severity::Info}, {"WARNING", Severity::Warning}, {"ERROR", Severity::Error}};
 
@@ -127,7 +134,9 @@ void set_light(SceneBuilder& self, Key key, std::string name, const std::string&
 void set_camera(SceneBuilder& self, std::string name, const std::string& type,
                 const py::object& transform, const std::array<float, 4>& window, float clip_start,
                 float clip_end, float aperture_radius, float focus_distance, int aperture_blades,
-                float aperture_rotation, float aperture_ratio, float pixel_size) {
+                float aperture_rotation, float aperture_ratio, float pixel_size,
+                const std::array<float, 2>& shift, float fisheye_fov, float fisheye_lens,
+                const std::array<float, 5>& fisheye_polynomial) {
   CameraDesc desc;
   desc.type = from_name(kCameraTypes, type, "camera type");
   desc.transform = to_matrix(name, transform);
@@ -144,6 +153,8 @@ void set_camera(SceneBuilder& self, std::string name, const std::string& type,
   desc.aperture_rotation = aperture_rotation;
   desc.aperture_ratio = aperture_ratio;
   desc.pixel_size = pixel_size;
+  desc.shift = vec2(shift[0], shift[1]);
+  desc.fisheye = {fisheye_fov, fisheye_lens, fisheye_polynomial};
   self.set_camera(std::move(desc));
 }
 
@@ -334,11 +345,16 @@ void bind_scene(py::module_& m) {
           "set_camera", &set_camera, py::kw_only(), "name"_a, "type"_a = "PERSP", "transform"_a,
           "window"_a, "clip_start"_a = 0.1f, "clip_end"_a = 1000.0f, "aperture_radius"_a = 0.0f,
           "focus_distance"_a = 10.0f, "aperture_blades"_a = 0, "aperture_rotation"_a = 0.0f,
-          "aperture_ratio"_a = 1.0f, "pixel_size"_a = 0.0f,
-          "A camera of type PERSP, ORTHO or EQUIRECTANGULAR that looks along its -z. window: left, "
-          "right, bottom, top of the full frame: on the plane at distance 1, in metres, or as "
-          "longitudes and latitudes in radians. aperture_radius in metres; 0: no depth of field. "
-          "pixel_size: height of a pixel in units of the window, for bump; 0: a thousandth of it.")
+          "aperture_ratio"_a = 1.0f, "pixel_size"_a = 0.0f, "shift"_a = std::array{0.0f, 0.0f},
+          "fisheye_fov"_a = FisheyeDesc().fov, "fisheye_lens"_a = FisheyeDesc().lens,
+          "fisheye_polynomial"_a = FisheyeDesc().polynomial,
+          "A camera that looks along its -z: PERSP, ORTHO or one of Cycles' panoramas. window: "
+          "left, right, bottom, top of the full frame: on the plane at distance 1, in metres, or "
+          "on the film of a panorama, see janus_core. aperture_radius in metres; 0: no depth of "
+          "field. pixel_size: height of a pixel in units of the window, for bump; 0: a thousandth "
+          "of it. shift: that the window has had, in widths and heights of it, if it is a "
+          "panorama's. fisheye_fov in radians, fisheye_lens in millimetres, fisheye_polynomial: K0 "
+          "to K4.")
       .def("remove", &SceneBuilder::remove, "key"_a, "Forgets a key; unknown keys are ignored.")
       .def(
           "commit", &commit, "poll"_a = py::none(),

@@ -254,7 +254,7 @@ def test_cancelling_during_build(scene, fake_core, monkeypatch):
     assert not result_pixels().any()
 
 
-def test_statistics_for_scripts(scene, fake_core):
+def test_statistics_for_scripts(scene, fake_core, monkeypatch):
     scene.janus.samples = 4
     bpy.ops.render.render()
     stats = part("render.final").last_render
@@ -262,6 +262,7 @@ def test_statistics_for_scripts(scene, fake_core):
     assert {"seconds", "sync_seconds", "commit_seconds", "counts"} <= set(stats)
     assert any("4 samples in" in line for line in messages("INFO"))
     scene.camera.data.type = "PANO"
+    monkeypatch.setattr(part("sync.camera"), "PANORAMAS", ())
     with pytest.raises(RuntimeError):
         bpy.ops.render.render()
     assert stats == {}

@@ -295,17 +295,6 @@ def panorama_settings(camera):
     return camera.data if hasattr(camera.data, "panorama_type") else camera.data.cycles
 
 
-def test_equirectangular_camera(scene, export):
-    scene.camera.data.type = "PANO"
-    settings = panorama_settings(scene.camera)
-    settings.panorama_type = "EQUIRECTANGULAR"
-    settings.longitude_min, settings.longitude_max = -2.0, 1.0
-    settings.latitude_min, settings.latitude_max = -0.5, 1.25
-    sent = export().camera
-    assert sent["type"] == "EQUIRECTANGULAR"
-    assert sent["window"] == (-2.0, 1.0, -0.5, 1.25)
-
-
 @pytest.mark.parametrize("kind, focal_length", [("PERSP", 0.08), ("ORTHO", 1.0), ("PANO", 0.08)])
 def test_lens(scene, export, kind, focal_length):
     data = scene.camera.data
@@ -344,11 +333,3 @@ def test_focus_object_and_bone(scene, export):
     assert export().camera["focus_distance"] == pytest.approx(4.5)
     dof.focus_subtarget = "Bone"
     assert export().camera["focus_distance"] == pytest.approx(3.0)
-
-
-def test_other_cameras_are_refused_by_name(scene, export):
-    scene.camera.data.type = "PANO"
-    panorama_settings(scene.camera).panorama_type = "MIRRORBALL"
-    with pytest.raises(RuntimeError, match="Camera 'Camera' is a mirror ball"):
-        export()
-    assert len(messages("ERROR")) == 1

@@ -84,3 +84,16 @@ def test_a_panorama_fills_its_frame(scene):
     view = read(rv3d, width=80, height=60)  # zoomed in: its middle alone is to be seen
     assert (view.width, view.height) == (160, 120)
     assert view.crop == (40, 30, 120, 90) and view.rectangle == (0, 0, 80, 60)
+
+
+def test_a_panorama_is_that_of_the_render(scene, export):
+    data = scene.camera.data
+    data.type, data.shift_x, data.lens = "PANO", 0.1, 20.0
+    settings = part("sync.panorama").panorama(data)
+    settings.panorama_type, settings.fisheye_fov = "FISHEYE_EQUISOLID", 2.5
+    data.dof.use_dof, data.dof.aperture_fstop = True, 0.5
+    sent = export().camera
+    seen = read(through_camera()).camera
+    assert set(seen) == set(sent) and seen["aperture_radius"] > 0.0
+    for name in set(sent) - {"transform", "pixel_size"}:  # the region has other pixels
+        assert seen[name] == sent[name]

@@ -37,6 +37,32 @@ def test_same_bits(captured):
     assert np.array_equal(render(builder.commit()).snapshot(), expected)
 
 
+def test_cameras(tmp_path):
+    """A fisheye of a field, lens, polynomial and shift of its own, and a camera with none."""
+    fisheye = {
+        "type": "FISHEYE_LENS_POLYNOMIAL",
+        "fisheye_fov": 2.0,
+        "fisheye_lens": 8.0,
+        "fisheye_polynomial": (-0.1, -1.2, 0.3, 0.0, 0.0),
+        "shift": (0.1, 0.2),
+    }
+    pictures = []
+    for camera in ({}, {"type": "FISHEYE_EQUISOLID"}, fisheye):
+        builder = capture.CapturingBuilder()
+        fill(builder)
+        builder.set_camera(
+            name="Eye", transform=translation(0, 0, 1), window=(-1.0, 1.0, -0.75, 0.75), **camera
+        )
+        builder.set_world(name="World", graph=None)
+        path = tmp_path / "scene.npz"
+        builder.save(path, janus_core.RenderSettings(**SETTINGS))
+        loaded, _ = capture.load(path)
+        expected = render(builder.commit()).snapshot()
+        assert np.array_equal(render(loaded.commit()).snapshot(), expected)
+        pictures.append(expected)
+    assert not np.array_equal(pictures[1], pictures[2])
+
+
 def test_images(tmp_path):
     builder = capture.CapturingBuilder()
     fill(builder)

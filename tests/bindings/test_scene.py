@@ -137,9 +137,26 @@ def test_camera_type(builder):
     arguments = {"name": "Cam", "transform": IDENTITY, "window": (-1, 1, -1, 1)}
     with pytest.raises(ValueError, match="PERSP, ORTHO, EQUIRECTANGULAR"):
         builder.set_camera(type="PANO", **arguments)
-    for kind in ("PERSP", "ORTHO", "EQUIRECTANGULAR"):
+    for kind in (
+        "PERSP",
+        "ORTHO",
+        "EQUIRECTANGULAR",
+        "FISHEYE_EQUIDISTANT",
+        "FISHEYE_EQUISOLID",
+        "FISHEYE_LENS_POLYNOMIAL",
+        "MIRRORBALL",
+        "EQUIANGULAR_CUBEMAP_FACE",
+        "CENTRAL_CYLINDRICAL",
+    ):
         builder.set_camera(type=kind, aperture_radius=0.1, aperture_blades=5, **arguments)
         builder.commit()
+
+
+@pytest.mark.parametrize("fisheye", [{"fisheye_fov": 0.0}, {"fisheye_polynomial": (1, 0, 0, 0, 0)}])
+def test_camera_with_an_impossible_fisheye(builder, fisheye):
+    arguments = {"name": "Cam", "transform": IDENTITY, "window": (-1, 1, -1, 1)}
+    arguments["type"] = "FISHEYE_LENS_POLYNOMIAL"
+    assert error_of(builder, "set_camera", **arguments, **fisheye).path == "camera"
 
 
 @pytest.mark.parametrize("lens", [{"aperture_radius": -1.0}, {"aperture_ratio": 0.0}])

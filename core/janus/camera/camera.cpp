@@ -9,12 +9,11 @@ std::unique_ptr<Camera> make_camera(const CameraDesc& desc, int width, int heigh
   switch (desc.type) {
     case CameraType::Orthographic:
       return make_orthographic(desc, width, height);
-    case CameraType::Equirectangular:
-      return make_equirectangular(desc, width, height);
     case CameraType::Perspective:
-      break;
+      return make_perspective(desc, width, height);
+    default:
+      return make_panoramic(desc, width, height);
   }
-  return make_perspective(desc, width, height);
 }
 
 }  // namespace janus

@@ -44,6 +44,12 @@ struct CameraRay {
   Ray ray;    // starts at the near clipping distance, t_max is the far one
   vec3 lens;  // point on the lens: distances for densities count from here
   PixelDensity density;
+
+  // Where a fisheye sees nothing, the picture is black, and opaque as in Cycles.
+  static CameraRay nothing(vec3 center) {
+    return {Ray{center, vec3(0.0f, 0.0f, 1.0f), -1.0f}, center, {}};
+  }
+  bool blind() const { return ray.t_max < 0.0f; }
 };
 
 // A connection of a scene point to the camera (t = 1).
@@ -53,7 +59,7 @@ struct CameraConnection {
   vec3 target;      // end of the shadow ray: where the camera ray would start
   float distance2;  // to the lens point
   PixelDensity density;
-  // A panorama may see the point at several film positions (over its seam and its poles). One was
+  // A panorama may see the point at several film positions (over its seam, say). One was
   // chosen with this probability; a contribution is divided by it, a weight is not.
   float pmf = 1.0f;
 
@@ -71,7 +77,7 @@ class Camera {
  public:
   virtual ~Camera() = default;
   // `u_lens` in [0, 1)^2 picks the point on the lens. `raster` may lie outside the frame: the pixel
-  // filter reaches over its border.
+  // filter reaches over its border. A ray may be blind().
   virtual CameraRay sample_ray(vec2 raster, vec2 u_lens) const = 0;
   // The inverse: sample_ray(raster, u_lens) passes through `p`. nullopt outside the frame grown by
   // `margin` pixels (infinite: everywhere), or outside the clipping range.

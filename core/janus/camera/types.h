@@ -49,6 +49,6 @@ inline constexpr float kMinFocus = 1e-5f;
 
 std::unique_ptr<Camera> make_perspective(const CameraDesc& desc, int width, int height);
 std::unique_ptr<Camera> make_orthographic(const CameraDesc& desc, int width, int height);
-std::unique_ptr<Camera> make_equirectangular(const CameraDesc& desc, int width, int height);
+std::unique_ptr<Camera> make_panoramic(const CameraDesc& desc, int width, int height);
 
 }  // namespace janus

@@ -6,6 +6,7 @@
 #include "janus/integrator/pass.h"
 #include "janus/integrator/picture_motion.h"
 #include "janus/render/time_slice.h"
+#include "janus/scene/panorama.h"
 #include "janus/shading/features.h"
 
 namespace janus {
@@ -58,7 +59,12 @@ class DataPasses final : public PassIntegrator {
     Sampler sampler = camera_sampler(index, pass);
     sampler.start_block(0);
     const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
-    const Ray ray = context_.camera().sample_ray(raster, sampler.next_2d()).ray;
+    const CameraRay seen = context_.camera().sample_ray(raster, sampler.next_2d());
+    if (seen.blind()) {
+      see_nothing(sample);
+      return;
+    }
+    const Ray& ray = seen.ray;
     if (choice_.surfaces()) {
       look_straight(ray, sample, counters);
     }
@@ -109,7 +115,7 @@ class DataPasses final : public PassIntegrator {
   }
 
   void see_first(const SurfaceInteraction& hit, DataSample& sample) const {
-    const bool panoramic = context_.scene().camera.type == CameraType::Equirectangular;
+    const bool panoramic = is_panorama(context_.scene().camera.type);
     const vec3 p = hit.p;
     sample.set(DataPass::Depth,
                panoramic ? glm::length(p - eye_) : (view_.from_world * vec4(p, 1.0f)).z);

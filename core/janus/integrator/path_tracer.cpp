@@ -192,7 +192,11 @@ class PathTracer final : public PassIntegrator {
                std::span<Rgb> layers) const {
     const Scene& scene = context_.scene();
     ++counters.camera_paths;
-    const Ray start = context_.camera().sample_ray(raster, sampler.next_2d()).ray;
+    const CameraRay seen = context_.camera().sample_ray(raster, sampler.next_2d());
+    if (seen.blind()) {
+      return Rgb(0.0f);
+    }
+    const Ray& start = seen.ray;
     Walk walk{start, {start.origin, start.direction, true}, start.origin};
     std::optional<CameraTrace> trace;
     if (settings_.walk.expressions) {

@@ -259,6 +259,9 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
                            OnLight&& on_light, OnVertex&& on_vertex) {
   ++counters.camera_paths;
   const CameraRay start = camera.sample_ray(raster, sampler.next_2d());
+  if (start.blind()) {
+    return 1.0f;
+  }
   PathVertex v;
   v.beta = Rgb(1.0f);
   v.crossings = 0;

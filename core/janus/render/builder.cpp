@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "janus/render/camera_checks.h"
 #include "janus/render/lamp.h"
 #include "janus/render/onlookers.h"
 #include "janus/render/time_slice.h"
@@ -12,12 +13,6 @@
 namespace janus {
 
 namespace {
-
-// Finite, and not flat.
-bool is_placement(const mat4& m) {
-  const float determinant = glm::determinant(mat3(m));
-  return is_finite(m) && std::isfinite(determinant) && determinant != 0.0f;
-}
 
 // A material's programs in Surfaces, by kRays.
 using ProgramsByRay = std::array<uint32_t, std::size(kRays)>;
@@ -340,39 +335,7 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   if (!camera_) {
     throw SceneError("camera", "", "the scene has no camera");
   }
-  const float window = (camera_->right - camera_->left) * (camera_->top - camera_->bottom);
-  const float volume = glm::determinant(mat3(camera_->transform));
-  const auto usable = [](float x) { return std::isfinite(x) && x != 0.0f; };
-  if (!is_finite(camera_->transform) || !usable(volume) || !usable(window)) {
-    throw SceneError(camera_->name, "camera", "its transform or its window is degenerate");
-  }
-  if (!(camera_->clip_end > camera_->clip_start) || !(camera_->clip_start >= 0.0f)) {
-    throw SceneError(camera_->name, "camera", "its clipping range is empty");
-  }
-  for (const CameraDesc::Key& key : camera_->motion) {
-    const float size = (key.right - key.left) * (key.top - key.bottom);
-    if (!is_placement(key.transform) || !usable(size)) {
-      throw SceneError(camera_->name, "camera",
-                       "its transform or its window is degenerate while the shutter is open");
-    }
-  }
-  if (camera_->motion.size() == 1) {
-    throw SceneError(camera_->name, "motion", "one time is no motion");
-  }
-  if (std::ranges::any_of(camera_->shutter,
-                          [](float x) { return !(x >= 0.0f) || std::isinf(x); }) ||
-      (!camera_->shutter.empty() && std::ranges::max(camera_->shutter) <= 0.0f)) {
-    throw SceneError(camera_->name, "shutter", "the shutter never opens");
-  }
-  if (camera_->type == CameraType::Equirectangular &&
-      !(std::max(std::abs(camera_->bottom), std::abs(camera_->top)) <= 1.0001f * 0.5f * kPi)) {
-    throw SceneError(camera_->name, "camera", "its latitudes go beyond the poles");
-  }
-  if (!(camera_->aperture_radius >= 0.0f) || !std::isfinite(camera_->aperture_radius) ||
-      !(camera_->focus_distance >= 0.0f) || !std::isfinite(camera_->focus_distance) ||
-      !(camera_->aperture_ratio > 0.0f) || !std::isfinite(camera_->aperture_rotation)) {
-    throw SceneError(camera_->name, "camera", "its lens is not a lens");
-  }
+  check_camera(*camera_);
   auto scene = std::make_shared<Scene>();
   scene->camera = *camera_;
   Commit commit(*scene, cancel);

@@ -1,25 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/render/scene.h"
 
+#include "janus/scene/panorama.h"
+
 namespace janus {
 
-// The camera looks along +z in Cycles; panoramas look along +x, with +z up.
+// The camera looks along +z in Cycles; panoramas look along +x, with +z up; the mirror ball along
+// -y, with +z up and +x to the right.
 CameraView view_of(const CameraDesc& camera) {
   mat4 turn(1.0f);
   turn[2][2] = -1.0f;
-  if (camera.type == CameraType::Equirectangular) {
+  if (camera.type == CameraType::MirrorBall) {
+    turn = mat4(0.0f);
+    turn[0][0] = turn[1][2] = turn[2][1] = turn[3][3] = 1.0f;
+  } else if (is_panorama(camera.type)) {
     turn = mat4(0.0f);
     turn[0][1] = turn[2][0] = -1.0f;
     turn[1][2] = turn[3][3] = 1.0f;
   }
   const mat4 from_world = turn * glm::inverse(camera.transform);
-  return {camera.type,   from_world, glm::inverse(from_world), camera.left, camera.right,
-          camera.bottom, camera.top};
+  const vec2 shift = camera.shift * vec2(camera.right - camera.left, camera.top - camera.bottom);
+  return {camera.type,
+          from_world,
+          glm::inverse(from_world),
+          camera.left - shift.x,
+          camera.right - shift.x,
+          camera.bottom - shift.y,
+          camera.top - shift.y,
+          camera.fisheye};
 }
 
 void Scene::place_objects() {
   const float pixel =
-      camera.pixel_size > 0.0f ? camera.pixel_size : 1e-3f * (camera.top - camera.bottom);
+      pixel_scale(camera.type, camera.fisheye) *
+      (camera.pixel_size > 0.0f ? camera.pixel_size : 1e-3f * (camera.top - camera.bottom));
   const bool parallel = camera.type == CameraType::Orthographic;
   surfaces.set_objects(
       meshes, instances, view_of(camera),

@@ -3,6 +3,7 @@
 // The scene as plain data, in Blender's words and units. Nothing here knows of rendering.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -119,20 +120,43 @@ struct WorldDesc {
   std::string light_group{};       // empty: none
 };
 
-enum class CameraType { Perspective, Orthographic, Equirectangular };
+// All but the first two are panoramas: see panorama.h.
+enum class CameraType {
+  Perspective,
+  Orthographic,
+  Equirectangular,
+  FisheyeEquidistant,
+  FisheyeEquisolid,
+  FisheyeLensPolynomial,
+  MirrorBall,
+  EquiangularCubemapFace,
+  CentralCylindrical
+};
+
+// What fisheyes have besides their frame.
+struct FisheyeDesc {
+  float fov = kPi;     // from rim to rim, radians: nothing is to be seen outside
+  float lens = 10.5f;  // equisolid: focal length, millimetres
+  // K0 to K4 of the polynomial: minus the angle from the view axis, radians, by millimetres.
+  std::array<float, 5> polynomial = {0.0f, -1.0f / 18.0f, 0.0f, 0.0f, 0.0f};
+};
 
 struct CameraDesc {
   std::string name;
   CameraType type = CameraType::Perspective;
   mat4 transform = mat4(1.0f);  // camera to world; looks down local -z, +y is up
-  // The full frame. Perspective: on the plane at distance 1. Orthographic: metres. Equirectangular:
-  // longitude and latitude in radians, 0 at the centre of the view, to the right and up.
+  // The full frame. Perspective: on the plane at distance 1. Orthographic: metres. Panoramas: on
+  // their film, in the units of panorama.h; 0 is the centre of the view.
   float left = -0.5f, right = 0.5f, bottom = -0.5f, top = 0.5f;
-  // Distances along the view axis; equirectangular: along the ray.
+  FisheyeDesc fisheye;
+  // Panoramas: how far the frame has been shifted, in widths and heights of it. It is where it is;
+  // but Cycles' Window coordinates are those of the frame before.
+  vec2 shift = vec2(0.0f);
+  // Distances along the view axis; panoramas: along the ray.
   float clip_start = 0.1f, clip_end = 1000.0f;
   // Depth of field.
   float aperture_radius = 0.0f;  // metres; 0: everything is in focus
-  float focus_distance = 10.0f;  // along the view axis; equirectangular: along the ray
+  float focus_distance = 10.0f;  // along the view axis; panoramas: along the ray
   int aperture_blades = 0;       // corners; below 3: round
   float aperture_rotation = 0.0f;
   float aperture_ratio = 1.0f;  // height to width; 2: half as wide

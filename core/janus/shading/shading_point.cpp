@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/shading/shading_point.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "janus/scene/panorama.h"
 
 namespace janus {
 
@@ -27,10 +28,10 @@ vec3 CameraView::window(vec3 p, bool direction) const {
   vec2 place(at);
   if (type == CameraType::Perspective) {
     place = at.z != 0.0f ? place / at.z : vec2(0.0f);
-  } else if (type == CameraType::Equirectangular) {
-    const float length = glm::length(at);
-    const float height = length > 0.0f ? std::clamp(at.z / length, -1.0f, 1.0f) : 0.0f;
-    place = vec2(std::atan2(-at.y, at.x), std::asin(height));
+  } else if (is_panorama(type)) {
+    const bool ball = type == CameraType::MirrorBall;  // with axes of its own: see view_of()
+    const dvec3 d = ball ? dvec3(at.x, at.z, at.y) : dvec3(-at.y, at.z, -at.x);
+    place = vec2(window_place(type, fisheye, d));
   }
   return {(place.x - left) / (right - left), (place.y - bottom) / (top - bottom), 0.0f};
 }

@@ -15,8 +15,9 @@ namespace janus {
 // How the camera looks at the world.
 struct CameraView {
   CameraType type = CameraType::Perspective;
-  mat4 from_world = mat4(1.0f), to_world = mat4(1.0f);  // looks along +z; panoramas along +x
-  float left = -0.5f, right = 0.5f, bottom = -0.5f, top = 0.5f;  // CameraDesc's
+  mat4 from_world = mat4(1.0f), to_world = mat4(1.0f);           // see view_of()
+  float left = -0.5f, right = 0.5f, bottom = -0.5f, top = 0.5f;  // CameraDesc's, before its shift
+  FisheyeDesc fisheye;
 
   // Where a point of the world, or for `direction` one as far as infinity, stands in the frame:
   // (0, 0) to (1, 1) from its lower left corner.

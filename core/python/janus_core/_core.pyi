@@ -249,7 +249,17 @@ class SceneBuilder:
         self,
         *,
         name: str,
-        type: Literal["PERSP", "ORTHO", "EQUIRECTANGULAR"] = "PERSP",
+        type: Literal[
+            "PERSP",
+            "ORTHO",
+            "EQUIRECTANGULAR",
+            "FISHEYE_EQUIDISTANT",
+            "FISHEYE_EQUISOLID",
+            "FISHEYE_LENS_POLYNOMIAL",
+            "MIRRORBALL",
+            "EQUIANGULAR_CUBEMAP_FACE",
+            "CENTRAL_CYLINDRICAL",
+        ] = "PERSP",
         transform: npt.ArrayLike,
         window: Sequence[float],
         clip_start: float = 0.1,
@@ -260,14 +270,26 @@ class SceneBuilder:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         pixel_size: float = 0.0,
+        shift: Sequence[float] = (0.0, 0.0),
+        fisheye_fov: float = ...,
+        fisheye_lens: float = ...,
+        fisheye_polynomial: Sequence[float] = ...,
     ) -> None:
         """A camera that looks along its -z, with +y up.
 
         transform: float[4, 4], camera to world. window: left, right, bottom, top of the full frame;
         PERSP: on the plane at distance 1; ORTHO: metres; EQUIRECTANGULAR: longitudes and latitudes
-        in radians. clip_start, clip_end, focus_distance: along the view axis, or along the ray of
-        an EQUIRECTANGULAR. aperture_radius: metres; 0: everything is in focus. aperture_blades:
-        corners of the aperture; below 3: round. aperture_ratio: height to width.
+        in radians; FISHEYE_EQUIDISTANT, EQUIANGULAR_CUBEMAP_FACE: angles from the view axis in
+        radians; FISHEYE_EQUISOLID, FISHEYE_LENS_POLYNOMIAL: millimetres on the sensor; MIRRORBALL:
+        radii of its disk; CENTRAL_CYLINDRICAL: longitudes, and heights on a cylinder of radius 1.
+        clip_start, clip_end, focus_distance: along the view axis, or along the ray of a panorama.
+        aperture_radius: metres; 0: everything is in focus. aperture_blades: corners of the
+        aperture; below 3: round. aperture_ratio: height to width.
+
+        Of panoramas: shift, that the window has had, in widths and heights of it. Of fisheyes:
+        fisheye_fov, radians from rim to rim; fisheye_lens, the focal length of an equisolid one in
+        millimetres; fisheye_polynomial, K0 to K4, minus the angle from the view axis in radians by
+        millimetres on the sensor.
         """
     def set_mesh_motion(
         self, key: str, *, positions: npt.ArrayLike, normals: npt.ArrayLike | None = None

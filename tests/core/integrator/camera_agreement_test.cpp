@@ -34,6 +34,12 @@ void panorama(CameraDesc& c, float left, float right, float bottom, float top) {
   frame(c, left, right, bottom, top);
 }
 
+void fisheye(CameraDesc& c, CameraType type, float size, float fov) {
+  panorama(c, -size, size, -0.9f * size, 1.1f * size);
+  c.type = type;
+  c.fisheye.fov = fov;
+}
+
 const CameraCase kCases[] = {
     {"shifted", [](CameraDesc& c) { frame(c, -0.1f, 0.4f, -0.4f, 0.2f); }},
     {"lens",
@@ -61,6 +67,27 @@ const CameraCase kCases[] = {
      },
      120},
     {"panorama", [](CameraDesc& c) { panorama(c, -1.2f, 0.9f, -0.7f, 1.0f); }, 24},
+    {"fisheye", [](CameraDesc& c) { fisheye(c, CameraType::FisheyeEquidistant, 1.3f, 2.6f); }, 24},
+    {"fisheye_lens",
+     [](CameraDesc& c) {
+       fisheye(c, CameraType::FisheyeEquisolid, 12.0f, 2.6f);
+       lens(c, 0.05f, 0.8f);
+     },
+     48},
+    {"polynomial",  // an angle that turns back, so that it sees things twice
+     [](CameraDesc& c) {
+       fisheye(c, CameraType::FisheyeLensPolynomial, 16.0f, 2.4f);
+       c.fisheye.polynomial = {-0.05f, -0.19f, 0.01f, 0.0f, 0.0f};
+     },
+     48},
+    {"mirror_ball", [](CameraDesc& c) { fisheye(c, CameraType::MirrorBall, 1.05f, kPi); }, 48},
+    {"cubemap_face_lens",
+     [](CameraDesc& c) {
+       fisheye(c, CameraType::EquiangularCubemapFace, 0.7f, kPi);
+       lens(c, 0.05f, 0.8f);
+     },
+     24},
+    {"cylinder", [](CameraDesc& c) { fisheye(c, CameraType::CentralCylindrical, 1.3f, kPi); }, 24},
 };
 
 std::ostream& operator<<(std::ostream& out, const CameraCase& c) { return out << c.name; }

@@ -84,6 +84,10 @@ TEST(Builder, RefusesCamerasWithoutAPicture) {
     c.type = CameraType::Equirectangular;
     c.top = 1.6f;
   });
+  refused([](CameraDesc& c) {
+    c.type = CameraType::FisheyeEquidistant;
+    c.fisheye.fov = 0.0f;
+  });
   refused([](CameraDesc& c) { c.aperture_radius = -1.0f; });
   refused([](CameraDesc& c) { c.aperture_radius = INFINITY; });
   refused([](CameraDesc& c) { c.focus_distance = NAN; });

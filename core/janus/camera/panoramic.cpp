@@ -2,46 +2,45 @@
 #include <array>
 
 #include "janus/camera/types.h"
+#include "janus/scene/panorama.h"
 
 namespace janus {
 
 namespace {
 
-using dvec2 = glm::dvec2;
-using dvec3 = glm::dvec3;
-
 constexpr double kPiDouble = 3.14159265358979323846;
 constexpr dvec3 kForward(0.0, 0.0, -1.0);
 
-// Longitude and latitude, as Cycles has it. Film positions outside the frame go on around the
-// sphere: over the seam to the other border, and over a pole down the other side. So the filter of
-// a border pixel sees what lies there, and a point near a seam or a pole is seen at several film
-// positions. connect() counts them and chooses one.
+// Every kind of panorama: Panorama says what a film position sees, and the lens is here.
 //
-// Cycles puts a lens in the plane across each ray, its x axis towards the point straight ahead
-// (-z). A lens point (a, b) of a ray D through the centre is P = a U + b V, where U is the
-// derivative of D towards that point and V = D x U, and the ray goes on from P to f D. So P turns
-// with D, and neighbouring rays of one (a, b) do not meet in a point. With L^2 = f^2 + a^2 + b^2,
-// the point at distance t from P is
+// The film goes on outside the frame: around the sphere, say, over the seam to the other border,
+// and over a pole down the other side. So the filter of a border pixel sees what lies there, and a
+// point near a seam or a pole is seen at several film positions; so is what a fisheye sees twice.
+// connect() counts them and chooses one. Outside its field of view a fisheye is blind.
+//
+// Cycles puts a lens in the plane across each ray, its x axis towards the point straight ahead, -z
+// of Panorama::lens_axes(). A lens point (a, b) of a ray D through the centre is P = a U + b V,
+// where U is the derivative of D towards that point and V = D x U, and the ray goes on from P to
+// f D. So P turns with D, and neighbouring rays of one (a, b) do not meet in a point. With
+// L^2 = f^2 + a^2 + b^2, the point at distance t from P is
 //   p = A D + B (a U + b V),  A = t f / L,  B = 1 - t / L,
 // and its derivatives by D along U and V span, across the ray, the area
 //   |A - B a cot(alpha)| |t - (a^2 + b^2) / L|
 // per solid angle of D; alpha is the angle between D and straight ahead.
-class EquirectangularCamera final : public Camera {
+class PanoramicCamera final : public Camera {
  public:
-  EquirectangularCamera(const CameraDesc& desc, int width, int height)
+  PanoramicCamera(const CameraDesc& desc, int width, int height)
       : pose_(desc),
         window_(desc, width, height),
+        map_(desc.type, desc.fisheye),
         aperture_(desc),
         focus_(std::max(desc.focus_distance, kMinFocus)),
         near_(desc.clip_start),
         far_(desc.clip_end) {}
 
   CameraRay sample_ray(vec2 raster, vec2 u_lens) const override {
-    const vec2 angles = window_.from_raster(raster);
-    const vec2 lon = cos_sin(angles.x), lat = cos_sin(angles.y);
-    const dvec3 chief(lat.x * lon.y, lat.y, -lat.x * lon.x);
-    return world_ray(chief, std::abs(lat.x), lens(u_lens));
+    const auto view = map_.look(dvec2(window_.from_raster(raster)));
+    return view ? world_ray(*view, lens(u_lens)) : CameraRay::nothing(pose_.center);
   }
 
   std::optional<CameraConnection> connect(vec3 p, vec2 u_lens, float margin) const override {
@@ -52,28 +51,30 @@ class EquirectangularCamera final : public Camera {
       return std::nullopt;
     }
     std::array<dvec3, 2> chiefs;
+    Panorama::Places places;
     const int count = find_chiefs(local, lens, distance, chiefs);
-    int total = 0;
     for (int i = 0; i < count; ++i) {
-      for_each_position(chiefs[i], margin, [&](vec2) { ++total; });
+      map_.find(chiefs[i], places);
     }
+    int total = 0;
+    for_each_position(places, margin, [&](dvec2, vec2) { ++total; });
     if (total == 0) {
       return std::nullopt;
     }
     const Choice choice = choose(u_lens, static_cast<uint32_t>(total));
     uint32_t skip = choice.index;
     vec2 raster(0.0f);
-    dvec3 chief(0.0);
-    for (int i = 0; i < count; ++i) {
-      for_each_position(chiefs[i], margin, [&](vec2 position) {
-        if (skip-- == 0) {
-          raster = position;
-          chief = chiefs[i];
-        }
-      });
+    std::optional<Panorama::View> view;
+    for_each_position(places, margin, [&](dvec2 place, vec2 position) {
+      if (skip-- == 0) {
+        raster = position;
+        view = map_.look(place);
+      }
+    });
+    if (!view) {  // by rounding at the rim
+      return std::nullopt;
     }
-    const auto cos_latitude = static_cast<float>(std::hypot(chief.x, chief.z));
-    const CameraRay ray = world_ray(chief, cos_latitude, lens);
+    const CameraRay ray = world_ray(*view, lens);
     return CameraConnection{raster,         -ray.ray.direction,
                             ray.ray.origin, static_cast<float>(distance * distance),
                             ray.density,    choice.pmf};
@@ -121,7 +122,7 @@ class EquirectangularCamera final : public Camera {
       u.x = (std::floor(u.x * kLensSteps) + 0.5f) / kLensSteps;
       const vec2 p = aperture_.sample(u);
       lens.a = p.x;
-      lens.b = p.y;
+      lens.b = map_.lens_mirrored() ? -p.y : p.y;
       lens.focus = focus_;
       lens.r2 = lens.a * lens.a + lens.b * lens.b;
       lens.L = std::sqrt(lens.focus * lens.focus + lens.r2);
@@ -130,17 +131,19 @@ class EquirectangularCamera final : public Camera {
     return lens;
   }
 
-  CameraRay world_ray(dvec3 chief, float cos_latitude, const Lens& lens) const {
-    const float solid_angle = window_.pixel_area() * cos_latitude;
-    dvec3 point(0.0), direction = chief;
+  CameraRay world_ray(const Panorama::View& view, const Lens& lens) const {
+    const auto solid_angle = static_cast<float>(window_.pixel_area() * view.solid_angle);
+    dvec3 point(0.0), direction = view.direction;
     PixelDensity density{1.0f / solid_angle, true};
     if (lens.r2 > 0.0) {
+      const dvec3 chief = map_.lens_axes() * view.direction;
       const double cos_alpha = glm::dot(chief, kForward);
       dvec3 u = kForward - cos_alpha * chief;
       const double sin_alpha = glm::length(u);
       u = sin_alpha > 0.0 ? u / sin_alpha : dvec3(1.0, 0.0, 0.0);
       point = lens.a * u + lens.b * glm::cross(chief, u);
-      direction = (lens.focus * chief - point) / lens.L;
+      direction = (lens.focus * chief - point) / lens.L * map_.lens_axes();
+      point = point * map_.lens_axes();
       const double cot = cos_alpha / sin_alpha;
       const double slope = (lens.focus + lens.a * cot) / lens.L;
       density.value /= static_cast<float>(std::abs(slope));
@@ -153,14 +156,15 @@ class EquirectangularCamera final : public Camera {
   }
 
   // The rays through the centre whose rays from the lens point pass `p` at `distance`; none to
-  // two, because lens points near the view axis turn faster than the rays.
-  static int find_chiefs(dvec3 p, const Lens& lens, double distance, std::array<dvec3, 2>& chiefs) {
+  // two, because lens points near the axis of the lens turn faster than the rays.
+  int find_chiefs(dvec3 p, const Lens& lens, double distance, std::array<dvec3, 2>& chiefs) const {
     if (lens.r2 == 0.0) {
       chiefs[0] = glm::normalize(p);
       return 1;
     }
+    p = map_.lens_axes() * p;
     const double a = distance * lens.focus / lens.L, b = 1.0 - distance / lens.L;
-    // Along the view axis: p . forward = A cos(alpha) + B a sin(alpha) = C cos(alpha - alpha_0).
+    // Along the axis: p . forward = A cos(alpha) + B a sin(alpha) = C cos(alpha - alpha_0).
     const double alpha_0 = std::atan2(b * lens.a, a);
     const double ratio = glm::dot(p, kForward) / std::hypot(b * lens.a, a);
     if (!(std::abs(ratio) <= 1.0)) {
@@ -176,50 +180,61 @@ class EquirectangularCamera final : public Camera {
       // Across the axis, as complex numbers: p = e^(i beta) (A sin - B a cos + i B b).
       const double c = std::cos(alpha), s = std::sin(alpha);
       const double beta = std::atan2(p.y, p.x) - std::atan2(b * lens.b, a * s - b * lens.a * c);
-      chiefs[count++] = dvec3(s * std::cos(beta), s * std::sin(beta), -c);
+      chiefs[count++] = dvec3(s * std::cos(beta), s * std::sin(beta), -c) * map_.lens_axes();
     }
     return count;
   }
 
-  // All film positions that show a direction.
+  // All film positions of places: visit(place, raster).
   template <class Visit>
-  void for_each_position(dvec3 d, float margin, Visit&& visit) const {
-    const double longitude = std::atan2(d.x, -d.z);
-    const double latitude = std::atan2(d.y, std::hypot(d.x, d.z));
-    const float turn = 2.0f * kPi / window_.pixel().x;  // pixels; negative in a mirrored frame
-    const float width = window_.size().x;
-    const auto visit_turns = [&](dvec2 angles) {
-      const vec2 first = window_.to_raster(vec2(angles));
-      if (!std::isfinite(margin)) {  // anywhere: the one closest to the middle of the frame
-        visit(vec2(first.x + turn * std::round((0.5f * width - first.x) / turn), first.y));
+  void for_each_position(const Panorama::Places& places, float margin, Visit&& visit) const {
+    const vec2 turn = glm::abs(vec2(map_.period()) / window_.pixel());  // pixels
+    for (size_t i = 0; i < places.count; ++i) {
+      vec2 first = window_.to_raster(vec2(places.at[i]));
+      if (!std::isfinite(
+              margin)) {  // anywhere: once, as close to the middle of the frame as can be
+        for (const int axis : {0, 1}) {
+          first[axis] = nearest(first[axis], turn[axis], 0.5f * window_.size()[axis]);
+        }
+        visit(places.at[i], first);
         return;
       }
-      if (!(first.y >= -margin && first.y <= window_.size().y + margin)) {
-        return;
+      const vec2 far = window_.size() + margin;
+      for (float y = begin(first.y, turn.y, -margin); y <= far.y; y += turn.y) {
+        for (float x = begin(first.x, turn.x, -margin); x <= far.x; x += turn.x) {
+          visit(places.at[i], vec2(x, y));
+          if (turn.x == 0.0f) {
+            break;
+          }
+        }
+        if (turn.y == 0.0f) {
+          break;
+        }
       }
-      const float size = std::abs(turn);
-      const float begin = std::ceil((-margin - first.x) / size);
-      for (float k = begin; first.x + k * size <= width + margin; k += 1.0f) {
-        visit(vec2(first.x + k * size, first.y));
-      }
-    };
-    visit_turns({longitude, latitude});
-    if (std::isfinite(margin)) {
-      visit_turns({longitude + kPiDouble, kPiDouble - latitude});
-      visit_turns({longitude + kPiDouble, -kPiDouble - latitude});
     }
+  }
+  static float nearest(float x, float turn, float to) {
+    return turn > 0.0f ? x + turn * std::round((to - x) / turn) : x;
+  }
+  // The first of x, x + turn, ... from `low` on; infinite if there is none.
+  static float begin(float x, float turn, float low) {
+    if (turn > 0.0f) {
+      return x + turn * std::ceil((low - x) / turn);
+    }
+    return x >= low ? x : kInfinity;
   }
 
   Pose pose_;
   Window window_;
+  Panorama map_;
   Aperture aperture_;
   float focus_, near_, far_;
 };
 
 }  // namespace
 
-std::unique_ptr<Camera> make_equirectangular(const CameraDesc& desc, int width, int height) {
-  return std::make_unique<EquirectangularCamera>(desc, width, height);
+std::unique_ptr<Camera> make_panoramic(const CameraDesc& desc, int width, int height) {
+  return std::make_unique<PanoramicCamera>(desc, width, height);
 }
 
 }  // namespace janus

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "janus/scene/description.h"
+
+namespace janus {
+
+// Finite, and not flat?
+bool is_placement(const mat4& m);
+
+// Throws SceneError for a camera that sees nothing, or cannot be.
+void check_camera(const CameraDesc& camera);
+
+}  // namespace janus
