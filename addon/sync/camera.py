@@ -35,7 +35,7 @@ def sync_camera(builder, depsgraph, log) -> tuple[float, float, float, float]:
         **seen,
         **(lens(data, transform, depsgraph) if data.dof.use_dof else {}),
     )
-    return frame
+    return seen["window"]
 
 
 def camera_type(camera) -> str:

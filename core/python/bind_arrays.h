@@ -83,7 +83,9 @@ std::vector<T> to_series(Key key, const char* path, const py::object& value, py:
     PyErr_Clear();
     std::string shape = "must be an array of numbers, (N, ";
     shape += rows ? std::to_string(rows) : "M";
-    shape += ", " + std::to_string(columns) + ")";
+    shape += ", ";
+    shape += std::to_string(columns);
+    shape += ")";
     throw SceneError(key, path, shape);
   }
   std::vector<T> result;

@@ -308,9 +308,12 @@ void bind_scene(py::module_& m) {
           "visible_*: the rays that meet it; holdout: leaves a hole in the picture where the "
           "camera "
           "sees it; attributes: four numbers under each key (see set_material()); light_group: "
-          "of what it emits; asset: the name of what it is a part of, for Cryptomatte; receiver_set, "
-          "blocker_set: numbers of the sets of lights that it is in as a light, which shine on some "
-          "things only, and are blocked by some only (-1: none); unlit_by, lets_pass: those that do "
+          "of what it emits; asset: the name of what it is a part of, for Cryptomatte; "
+          "receiver_set, "
+          "blocker_set: numbers of the sets of lights that it is in as a light, which shine on "
+          "some "
+          "things only, and are blocked by some only (-1: none); unlit_by, lets_pass: those that "
+          "do "
           "not shine on it, and that it is not in the way of; the rest is "
           "what the Object Info node says.")
       .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,

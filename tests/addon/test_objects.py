@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from conftest import add_light, add_mesh, add_square, messages, new_material, part
+from conftest import add_mesh, add_square, messages, new_material, part
 
 
 def triangle_positions(mesh):

@@ -74,9 +74,6 @@ class PathTracer final : public PassIntegrator {
     }
     Rgb lit(1.0f), beta = walk.beta;
     if (walk.shadows) {  // as shadow rays see it
-      if (hit.by_chance()) {
-        return Rgb(0.0f);
-      }
       beta *= walk.shadows->through(light.shadow_ray);
     }
     if (settings_.walk.ray_types && walk.edges > 1) {
@@ -161,7 +158,8 @@ class PathTracer final : public PassIntegrator {
         scene.turn_to_copy(hit, copy);
         const ShadingResult shading = scene.shade(hit, -d);
         if (size_t index; const MeshLight* light = scene.mesh_light(hit, index)) {
-          sum += found(walk, index, light->at(hit, walk.previous.p, d, shading.emission));
+          const LightHit shine = light->at(hit, walk.previous.p, d, shading.emission);
+          sum += shine.by_chance() ? Rgb(0.0f) : found(walk, index, shine);
         }
         shadows.meet(scene.instances[copy].visibility, shading.transparency);
       }

@@ -82,8 +82,8 @@ struct Emitter {
   vec3 axis = vec3(0.0f, 0.0f, 1.0f);
   float theta_o = kPi, theta_e = 0.5f * kPi;
   bool two_sided = false;  // likewise around the opposite axis
-  LinkMask links = kLightsAll;  // what it shines on (scene/linking.h)
   bool infinite = false;
+  LinkMask links = kLightsAll;  // what it shines on (scene/linking.h)
 };
 
 class Light {

@@ -18,7 +18,7 @@ namespace janus {
 struct Receiver {
   vec3 p;
   vec3 n;
-  bool two_sided;  // can light from behind `n` matter? (transmission)
+  bool two_sided;         // can light from behind `n` matter? (transmission)
   LinkMask unlit_by = 0;  // ReceiverLinks
 
   bool lit_by(const Light& light) const { return shines_on(link_bit(light.link_set), unlit_by); }
@@ -60,8 +60,8 @@ class LightTree {
     vec3 axis;
     float strength;             // sum
     float cos_o, sin_o, cos_e;  // bounds of theta_o and theta_e
-    LinkMask links;  // of all
-    uint32_t next;   // leaf: kLeaf | emitter; else the right child (the left one comes next)
+    LinkMask links;             // of all
+    uint32_t next;  // leaf: kLeaf | emitter; else the right child (the left one comes next)
     bool two_sided;
   };
 

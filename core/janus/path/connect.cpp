@@ -38,8 +38,7 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   const vec2 u = sampler.next_2d();
   const BsdfView bsdf = v.bsdf();
   const Receiver target = scene.receiver(v.hit, bsdf.transmits(), v.back);
-  const LightChoice choice =
-      scene.light_sampler.sample_illumination(target, u_light);
+  const LightChoice choice = scene.light_sampler.sample_illumination(target, u_light);
   const Light& light = *scene.lights[choice.light];
   const auto sample = light.sample_illumination(v.hit.p, choice.primitive, u);
   if (!sample || v.edges + 1 > light.max_edges || !target.lit_by(light)) {

@@ -15,7 +15,7 @@ constexpr size_t kLooks = 8;  // that an instance has for different rays, at mos
 struct Place {
   Rgb transparency = Rgb(1.0f);  // for the segment that leads there
   bool blocks = false;           // does it count as a crossing?
-  float albedo[kLooks] = {};  // of the copies that the walk may end at
+  float albedo[kLooks] = {};     // of the copies that the walk may end at
   float sum = 0.0f;
 };
 
@@ -127,7 +127,7 @@ void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossing
   ShadowsAhead shadows(scene.shadow_types, crossings, max_crossings);
   const auto report = [&](size_t index, const LightHit& light) {
     const Rgb through = shadows.through(scene.lights[index]->shadow_ray);
-    if (!light.by_chance() && !is_black(through)) {
+    if (!is_black(through)) {
       found(index, light, through);
     }
   };
@@ -149,7 +149,10 @@ void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossing
       scene.shade(hit, -ray.direction, shading);
       if (size_t index; !is_black(shading.emission)) {
         if (const MeshLight* light = scene.mesh_light(hit, index)) {
-          report(index, light->at(hit, from, ray.direction, shading.emission));
+          const LightHit shine = light->at(hit, from, ray.direction, shading.emission);
+          if (!shine.by_chance()) {
+            report(index, shine);
+          }
         }
       }
       shadows.meet(scene.instances[hit.instance].visibility, shading.transparency);

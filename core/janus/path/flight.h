@@ -106,7 +106,8 @@ DrawnTypes draw_types(const Accel& accel, RayMask possible, Sampler& sampler);
 // Calls found(light, LightHit, transmittance) for each light on `ray` from a vertex at `from`, the
 // way as a shadow ray sees it: surfaces that shadow rays do not meet emit, but do not block.
 // `crossings`: of the path so far. Lights that cast no shadows are found behind everything;
-// those that no shadow ray looks for, not at all.
+// surfaces that no shadow ray looks for, not at all. (A world of one colour needs no shadow rays,
+// but it is seen as they would.)
 void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossings,
                      int max_crossings, uint64_t& rays,
                      const std::function<void(size_t, const LightHit&, Rgb)>& found);

@@ -191,9 +191,8 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   if (!receiver.lit_by(light)) {
     return;
   }
-  const float pdf_nee =
-      scene.light_sampler.pmf_illumination(receiver, index, emission->primitive) *
-      light.pdf_illumination(*emission, *endpoint, v.hit.p);
+  const float pdf_nee = scene.light_sampler.pmf_illumination(receiver, index, emission->primitive) *
+                        light.pdf_illumination(*emission, *endpoint, v.hit.p);
   v.light_end = {joint, pdf_nee, light.hittable(), v.back};
   v.mis = mis.begin_light(joint, pdf_nee, light.hittable());
   float eta_scale = 1.0f;

@@ -34,8 +34,7 @@ void check_camera(const CameraDesc& camera) {
   if (camera.motion.size() == 1) {
     throw SceneError(camera.name, "motion", "one time is no motion");
   }
-  if (std::ranges::any_of(camera.shutter,
-                          [](float x) { return !(x >= 0.0f) || std::isinf(x); }) ||
+  if (std::ranges::any_of(camera.shutter, [](float x) { return !(x >= 0.0f) || std::isinf(x); }) ||
       (!camera.shutter.empty() && std::ranges::max(camera.shutter) <= 0.0f)) {
     throw SceneError(camera.name, "shutter", "the shutter never opens");
   }

@@ -22,9 +22,7 @@ class ShadowsAhead {
   }
 
   // What comes through to a shadow ray of this type, which is one of them.
-  Rgb through(RayType type) const {
-    return through_[std::popcount(types_ & (ray_bit(type) - 1))];
-  }
+  Rgb through(RayType type) const { return through_[std::popcount(types_ & (ray_bit(type) - 1))]; }
 
   // The ray goes on behind something that rays of `visibility` meet.
   void meet(RayMask visibility, Rgb transparency) {

@@ -31,7 +31,7 @@ TEST(BlindFilm, IsBlackAndOpaque) {
       RenderSettings settings = small_picture(type, 4);
       settings.film_transparent = transparent;
       const Image image = render(scene, settings);
-      for (const auto [x, y] : {std::pair(0, 0), {8, 1}, {15, 8}, {11, 11}, {4, 4}}) {
+      for (const auto& [x, y] : {std::pair(0, 0), {8, 1}, {15, 8}, {11, 11}, {4, 4}}) {
         const float* p = &image.pixels[4 * (static_cast<size_t>(y) * image.width + x)];
         EXPECT_EQ(vec4(p[0], p[1], p[2], p[3]), vec4(0, 0, 0, 1)) << x << " " << y;
       }

@@ -37,6 +37,23 @@ std::vector<Mean> picture(const std::shared_ptr<const Scene>& scene, IntegratorT
 // --- Shadows
 // --------------------------------------------------------------------------------------
 
+// A world of one colour, which needs no next event estimation, is there as well where lights have
+// shadow rays of their own.
+TEST(LightRules, LightsWithoutShadowsLeaveTheWorldAlone) {
+  LightDesc light = point_light({0, 0, 9}, 1e-6f);
+  light.cast_shadow = false;
+  const auto scene = SceneKit()
+                         .add("floor", plane(2, 2), diffuse(Rgb(0.6f)))
+                         .light("l", light)
+                         .world(Rgb(1))
+                         .camera({0, 0, 1}, {0, 0, 0})
+                         .build();
+  for (const IntegratorType integrator : kIntegrators) {
+    const Mean found = picture(scene, integrator, 64, 0)[0];
+    EXPECT_NEAR(found.mean(), 0.6, 5 * found.error() + 1e-4) << static_cast<int>(integrator);
+  }
+}
+
 // A light without shadows lights the floor through an opaque plate.
 TEST(LightRules, NothingIsInTheWayOfALightWithoutShadows) {
   for (const IntegratorType integrator : kIntegrators) {
