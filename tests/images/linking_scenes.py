@@ -21,10 +21,7 @@ CASES = (
 
 
 def build(case: str):
-    """Three things on a floor, with two lamps: a soft and a strong one, and a little sky.
-
-    No sun has blockers of its own: in Cycles that makes fireflies, which are no noise.
-    """
+    """Three things on a floor, with two lamps: a soft and a strong one, and a little sky."""
     import bpy
 
     from scenes import kit
@@ -85,12 +82,16 @@ def _emitter(scene, kit, soft, strong):
 
 
 def _sun(scene, _kit, soft, strong):
+    """Cycles' light tree makes a linked sun too bright."""
     import bpy
+
+    scene.cycles.use_light_tree = False
 
     sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
     sun.data.energy, sun.data.angle, sun.rotation_euler = 2.0, 0.1, (0.7, 0.3, 0.0)
     scene.collection.objects.link(sun)
     _collection(sun, "receiver", _named(scene, "Left", "Floor"))
+    _collection(sun, "blocker", _named(scene, "Right"))
 
 
 def _blockers(scene, _kit, soft, strong):

@@ -78,6 +78,18 @@ TEST(MotionBlur, IsTheMeanOfAllTimes) {
   expect_agreement(blurred, mean);
 }
 
+// Light paths from far away start around all that there is at any time.
+TEST(MotionBlur, SunAndSkyReachWhatMovesAway) {
+  SceneKit kit;
+  kit.add("floor", plane(1, 1), diffuse(Rgb(0.6f)));
+  kit.add("plate", plane(1, 1), diffuse(Rgb(0.7f)));
+  kit.builder.set_instance_motion("plate", {translation({0, 0, 0.1f}), translation({3, 0, 1}),
+                                            translation({6, 1, 0.5f}) * rotation({1, 0, 0}, 1)});
+  kit.light("sun", sun_light({0.2f, 0.1f, 1}, 2, 0.1f)).world(Rgb(0.3f));
+  kit.camera({3, 0, 9}, {3, 0, 0}, 0.45f);
+  expect_integrators_agree(kit.build(), 64, true);
+}
+
 TEST(MotionBlur, DoesNotDependOnThreads) {
   const auto scene = moving_room().build();
   RenderSettings settings = small_picture(IntegratorType::Bdpt, 3);

@@ -178,8 +178,8 @@ DENSITIES = (
         "light walks ask for next event estimation at the other side of z_1",
         PICTURES,
         SUBPATH,
-        "pmf_illumination(receiver(v.hit, v.bsdf(), v.back),",
-        "pmf_illumination(receiver(v.hit, v.bsdf(), -v.back),",
+        "const Receiver receiver = scene.receiver(v.hit, v.bsdf().transmits(), v.back);",
+        "const Receiver receiver = scene.receiver(v.hit, v.bsdf().transmits(), -v.back);",
     ),
     one(
         "shading-normal-in-connections",

@@ -170,8 +170,8 @@ PATHS = (
         "a light without shadows casts them on those who find it by chance",
         RAY_TYPES,
         FLIGHT_APART,
-        "found(index, light, blocked ? through : Rgb(1.0f));",
-        "found(index, light, through);",
+        "shadows.through(scene.lights[index]->shadow_ray);",
+        "shadows.through(RayType::Shadow);",
     ),
     one(
         "limit-of-a-light-not-for-splats",
@@ -214,9 +214,9 @@ PATHS = (
         18,
         "no light is chosen behind a translucent surface",
         f"{PICTURES}:Matrix.PairwiseCoveringSet",
-        "core/janus/path/vertex.h",
-        "dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, bsdf.transmits()};",
-        "dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, false && bsdf.transmits()};",
+        "core/janus/render/scene.h",
+        "return {hit.p, dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, transmits,",
+        "return {hit.p, dot(side, hit.ng) < 0.0f ? -hit.ng : hit.ng, false && transmits,",
     ),
     one(
         "splat-ray-epsilon",
