@@ -73,7 +73,7 @@ def _excluded(scene, _kit, soft, strong):
 
 
 def _emitter(scene, kit, soft, strong):
-    """A surface that shines on one thing; a mirror, on which it does not shine, does not show it."""
+    """A surface that shines on one thing; a mirror that it does not shine on does not show it."""
     lamp = kit.box(scene, "Lamp", (0.8, 0.1, 0.5), kit.emission("Lamp", (1.0, 0.8, 0.5), 8.0))
     lamp.location = (0.6, -1.4, 0.4)
     _collection(lamp, "receiver", _named(scene, "Right"))
