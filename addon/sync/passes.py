@@ -35,6 +35,7 @@ DATA_PASSES = (
     ("use_pass_normal", "Normal", "Normal", "XYZ", "VECTOR"),
     ("use_pass_vector", "Vector", "Vector", "XYZW", "VECTOR"),
     ("use_pass_uv", "UV", "UV", "UVA", "VECTOR"),
+    ("use_pass_ambient_occlusion", "Ambient Occlusion", "AO", "RGB", "COLOR"),
     ("use_pass_object_index", "Object Index", "IndexOB", "X", "VALUE"),
     ("use_pass_material_index", "Material Index", "IndexMA", "X", "VALUE"),
 )
@@ -53,9 +54,6 @@ GUIDES = {
     "RGB_ALBEDO": ("Denoising Albedo",),
     "RGB_ALBEDO_NORMAL": ("Denoising Albedo", "Denoising Normal"),
 }
-# Passes of Blender and of Cycles that Janus does not make.
-UNSUPPORTED = (("use_pass_ambient_occlusion", "Ambient Occlusion"),)
-
 # What switches it on in view_layer.janus, the name of the pass, its light path expression
 READY_MADE = (
     ("use_pass_direct", "Direct", "L.E"),
@@ -128,6 +126,7 @@ def data_arguments(scene, layer) -> dict:
         "cryptomatte": matte_kinds(layer),
         "cryptomatte_levels": matte_levels(layer),
         "pass_alpha_threshold": layer.pass_alpha_threshold,
+        "occlusion_distance": scene.world.light_settings.distance if scene.world else 0.0,
         **({"mist": (mist.start, mist.depth, FALLOFFS[mist.falloff])} if mist else {}),
     }
 
@@ -177,7 +176,7 @@ def mattes(layer) -> list[Pass]:
 
 def unsupported(layer) -> list[str]:
     """Names of passes that the view layer asks for and does not get."""
-    found = [name for toggle, name in UNSUPPORTED if getattr(layer, toggle)]
+    found = []
     if getattr(getattr(layer, "cycles", None), "use_pass_shadow_catcher", False):
         found.append("Shadow Catcher")
     return found + [aov.name for aov in layer.aovs if aov.is_valid]

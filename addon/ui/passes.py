@@ -85,6 +85,7 @@ class JANUS_VIEWLAYER_PT_passes_light(PassesPanel, bpy.types.Panel):
         column = layout.column(heading="Other", align=True)
         column.prop(layer, "use_pass_emit", text="Emission")
         column.prop(layer, "use_pass_environment")
+        column.prop(layer, "use_pass_ambient_occlusion")
 
 
 class JANUS_VIEWLAYER_PT_passes_lightgroups(PassesPanel, bpy.types.Panel):

@@ -100,10 +100,11 @@ RenderSettings make_settings(
     const std::string& strategies, const Expressions& expressions,
     const std::vector<std::string>& light_passes, int strategy_images,
     const std::vector<std::string>& data_passes, const std::vector<std::string>& cryptomatte,
-    int cryptomatte_levels, float pass_alpha_threshold, const std::array<float, 3>& mist) {
+    int cryptomatte_levels, float pass_alpha_threshold, const std::array<float, 3>& mist,
+    float occlusion_distance) {
   RenderSettings s;
   s.data = to_data(data_passes, cryptomatte, cryptomatte_levels);
-  s.data_settings = {{mist[0], mist[1], mist[2]}, pass_alpha_threshold};
+  s.data_settings = {{mist[0], mist[1], mist[2]}, pass_alpha_threshold, occlusion_distance};
   s.width = width;
   s.height = height;
   if (crop) {
@@ -195,6 +196,7 @@ py::dict to_dict(const RenderSettings& s) {
   d["pass_alpha_threshold"] = s.data_settings.alpha_threshold;
   const Mist& mist = s.data_settings.mist;
   d["mist"] = py::make_tuple(mist.start, mist.depth, mist.falloff);
+  d["occlusion_distance"] = s.data_settings.occlusion_distance;
   d["motion_blur"] = s.motion_blur;
   d["film_exposure"] = s.film_exposure;
   d["film_transparent"] = s.film_transparent;
@@ -232,7 +234,8 @@ void bind_settings(py::module_& m) {
       "UV, "
       "Mist, Denoising Albedo, Denoising Normal, Denoising Depth, Debug Sample Count; cryptomatte: "
       "Object, Material, Asset, each in so many cryptomatte_levels (pictures of two ids); "
-      "pass_alpha_threshold: surfaces with less alpha are looked through; mist: start and depth in "
+      "pass_alpha_threshold: surfaces with less alpha are looked through; occlusion_distance: how "
+      "far away the surroundings occlude (0: however far); mist: start and depth in "
       "metres, and the power of the falloff; "
       "motion_blur: whether what moves is blurred; "
       "film_exposure: a factor of the colour; film_transparent: the world is not in the picture; "
@@ -262,7 +265,8 @@ void bind_settings(py::module_& m) {
       "cryptomatte"_a = std::vector<std::string>(), "cryptomatte_levels"_a = d.data.matte_levels,
       "pass_alpha_threshold"_a = d.data_settings.alpha_threshold,
       "mist"_a = std::array{d.data_settings.mist.start, d.data_settings.mist.depth,
-                            d.data_settings.mist.falloff});
+                            d.data_settings.mist.falloff},
+      "occlusion_distance"_a = d.data_settings.occlusion_distance);
   settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
   settings.def("__repr__", [](const RenderSettings& s) {
     return py::str("RenderSettings(**{!r})").format(to_dict(s));

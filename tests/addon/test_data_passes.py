@@ -105,14 +105,11 @@ def test_uv_needs_no_material_that_reads_it(scene, layer, core, tmp_path):
 
 
 def test_what_is_not_made_is_said(scene, layer, core):
-    layer.use_pass_ambient_occlusion = layer.cycles.use_pass_shadow_catcher = True
+    layer.cycles.use_pass_shadow_catcher = True
     layer.aovs.add().name = "Mask"
     bpy.ops.render.render()
     text = " ".join(messages())
-    assert all(
-        f"'{name}' is not supported" in text
-        for name in ("Ambient Occlusion", "Shadow Catcher", "Mask")
-    )
+    assert all(f"'{name}' is not supported" in text for name in ("Shadow Catcher", "Mask"))
 
 
 def test_mist_is_the_worlds(scene, layer):

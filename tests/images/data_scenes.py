@@ -10,7 +10,8 @@ SEEDS, SAMPLES = 3, 256
 WIDTH, HEIGHT = 48, 36
 CASES = ("perspective", "orthographic", "panorama")
 
-TOGGLES = ("z", "mist", "position", "normal", "uv", "vector", "object_index", "material_index")
+TOGGLES = ("z", "mist", "position", "normal", "uv", "vector", "ambient_occlusion")
+TOGGLES += ("object_index", "material_index")
 MATTES = ("object", "material", "asset")
 
 
@@ -43,6 +44,7 @@ def build(name: str):
         thin,
     )
     kit.world(scene, (0.3, 0.4, 0.6), 0.5)
+    scene.world.light_settings.distance = 1.5
     mist = scene.world.mist_settings
     mist.start, mist.depth, mist.falloff = 2.0, 6.0, "LINEAR"
     for number, obj in enumerate(o for o in scene.objects if o.type == "MESH"):

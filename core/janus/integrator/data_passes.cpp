@@ -5,6 +5,8 @@
 
 #include "janus/integrator/pass.h"
 #include "janus/integrator/picture_motion.h"
+#include "janus/math/frame.h"
+#include "janus/math/warp.h"
 #include "janus/render/time_slice.h"
 #include "janus/scene/panorama.h"
 #include "janus/shading/features.h"
@@ -66,7 +68,7 @@ class DataPasses final : public PassIntegrator {
     }
     const Ray& ray = seen.ray;
     if (choice_.surfaces()) {
-      look_straight(ray, sample, counters);
+      look_straight(ray, sampler, sample, counters);
     }
     if (choice_.features()) {
       look_for_features(ray, sampler, sample, counters);
@@ -74,7 +76,7 @@ class DataPasses final : public PassIntegrator {
   }
 
   // Follows the camera's ray through what is transparent.
-  void look_straight(Ray ray, DataSample& sample, Counters& counters) const {
+  void look_straight(Ray ray, Sampler& sampler, DataSample& sample, Counters& counters) const {
     Rgb through(1.0f);
     bool done = false;  // have the passes that are means got their surface?
     for (int crossings = 0; crossings <= settings_.walk.max_crossings; ++crossings) {
@@ -104,6 +106,13 @@ class DataPasses final : public PassIntegrator {
       }
       const float share = average(through * (Rgb(1.0f) - shading.transparency));
       add(sample, DataPass::Mist, vec3((1.0f - data_.mist.at(distance(hit->p))) * share));
+      if (choice_.wants(DataPass::AmbientOcclusion)) {
+        sampler.start_block(static_cast<uint32_t>(crossings) + 1);
+        ++counters.camera_rays;
+        add(sample, DataPass::AmbientOcclusion,
+            through * (Rgb(1.0f) - shading.transparency) *
+                open_sky(*hit, shading.bsdf.view(hit->ng, hit->ns), wo, sampler.next_2d()));
+      }
       see_mattes(*hit, average(through) * alpha, sample);
       through *= shading.transparency;
       if (is_black(through)) {
@@ -147,6 +156,18 @@ class DataPasses final : public PassIntegrator {
     if (choice_.wants(DataPass::Vector)) {
       sample.set_seen(DataPass::Vector, motion_ ? motion_->of(hit) : vec4(0.0f));
     }
+  }
+
+  // What a ray over the surface, drawn by the cosine, meets of the surroundings: white is nothing.
+  Rgb open_sky(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, vec2 u) const {
+    const Frame frame(diffuse_normal(bsdf, facing(hit.ns, hit, wo), wo));
+    const vec3 d = frame.to_world(square_to_cosine_hemisphere(u));
+    const Bounds& all = context_.scene().accel->bounds();
+    const float beyond = glm::length(hit.p - all.center()) + 2.0f * all.radius();
+    const float reach = data_.occlusion_distance > 0.0f ? data_.occlusion_distance : beyond;
+    const vec3 origin = offset_origin(hit.p, hit.ng, hit.offset, d);
+    return context_.scene().transmittance(origin, origin + std::min(reach, beyond) * d,
+                                          RayType::Shadow, settings_.walk.max_crossings);
   }
 
   void see_mattes(const SurfaceInteraction& hit, float weight, DataSample& sample) const {

@@ -23,6 +23,7 @@ struct DataSettings {
   Mist mist;
   // Surfaces with less alpha are looked through, by the passes that are means.
   float alpha_threshold = 0.5f;
+  float occlusion_distance = 0.0f;  // what is farther away does not occlude; metres, 0: infinite
 };
 
 std::unique_ptr<Integrator> make_data_passes(const RenderContext& context,

@@ -20,15 +20,27 @@ vec3 facing_normal(const Lobe& lobe, vec3 ng, vec3 wo) {
   return is_ggx(lobe.type) ? valid_normal(n, back ? -ng : ng, wo) : n;
 }
 
-}  // namespace
-
-vec3 average_normal(const BsdfView& bsdf, vec3 ns, vec3 wo) {
+// Of the lobes that count(lobe) says; `ns` where there are none.
+template <class Count>
+vec3 mean_normal(const BsdfView& bsdf, vec3 ns, vec3 wo, Count&& count) {
   vec3 sum(0.0f);
   for (const Lobe& lobe : bsdf.lobes()) {
-    sum += std::abs(average(lobe.weight)) * facing_normal(lobe, bsdf.ng(), wo);
+    if (count(lobe)) {
+      sum += std::abs(average(lobe.weight)) * facing_normal(lobe, bsdf.ng(), wo);
+    }
   }
   const float length = glm::length(sum);
   return length > 0.0f ? sum / length : ns;
+}
+
+}  // namespace
+
+vec3 average_normal(const BsdfView& bsdf, vec3 ns, vec3 wo) {
+  return mean_normal(bsdf, ns, wo, [](const Lobe&) { return true; });
+}
+
+vec3 diffuse_normal(const BsdfView& bsdf, vec3 ns, vec3 wo) {
+  return mean_normal(bsdf, ns, wo, [](const Lobe& lobe) { return !is_ggx(lobe.type); });
 }
 
 SurfaceFeatures surface_features(const BsdfView& bsdf, Rgb transparency, vec3 ns, vec3 wo) {

@@ -11,6 +11,9 @@ namespace janus {
 // there are none. Unit.
 vec3 average_normal(const BsdfView& bsdf, vec3 ns, vec3 wo);
 
+// The same of the diffuse lobes alone: where ambient occlusion looks.
+vec3 diffuse_normal(const BsdfView& bsdf, vec3 ns, vec3 wo);
+
 // A denoiser's view of a surface. What is nearly smooth shows something else: that is looked at
 // instead where it makes up most of the surface.
 struct SurfaceFeatures {

@@ -51,6 +51,7 @@ class RenderSettings:
         cryptomatte_levels: int = 3,
         pass_alpha_threshold: float = 0.5,
         mist: Sequence[float] = (5.0, 25.0, 2.0),
+        occlusion_distance: float = 0.0,
     ) -> None: ...
     def to_dict(self) -> dict[str, Any]:
         """The keyword arguments that make these settings."""
@@ -173,6 +174,9 @@ class RenderSettings:
     @property
     def pass_alpha_threshold(self) -> float:
         """Surfaces with less alpha are looked through by Normal and UV."""
+    @property
+    def occlusion_distance(self) -> float:
+        """How far away, in metres, surroundings occlude in the pass AO; 0: however far."""
     @property
     def mist(self) -> tuple[float, float, float]:
         """Start and depth in metres, and the power of the falloff."""

@@ -27,7 +27,8 @@ NodeGraph half_clear() {
 }
 
 // The pixel of each pass; `threshold` of alpha.
-std::map<std::string, std::vector<float>> look(const SceneKit& kit, float threshold = 0.5f) {
+std::map<std::string, std::vector<float>> look(const SceneKit& kit, float threshold = 0.5f,
+                                               float occlusion_distance = 1.0f) {
   RenderSettings settings;
   settings.width = settings.height = 1;
   settings.samples = 16;
@@ -37,6 +38,7 @@ std::map<std::string, std::vector<float>> look(const SceneKit& kit, float thresh
   std::ranges::fill(settings.data.mattes, true);
   settings.data_settings.mist = {1.0f, 8.0f, 1.0f};
   settings.data_settings.alpha_threshold = threshold;
+  settings.data_settings.occlusion_distance = occlusion_distance;
   RenderSession session(kit.build(), settings);
   session.start();
   session.finish();
@@ -82,6 +84,19 @@ TEST(DataPasses, ShareMistAndMattesByAlpha) {
   for (const char* name : {"CryptoObject00", "CryptoMaterial00", "CryptoAsset00"}) {
     expect(found.at(name), {pane, 0.5f, wall, 0.5f});
   }
+}
+
+// The wall is two metres behind the pane, which lets half of everything pass.
+TEST(DataPasses, SayWhatOccludes) {
+  expect(look(pane_and_wall(half_clear())).at("AO"), {1, 1, 1});
+  SceneKit wide = pane_and_wall(half_clear());
+  wide.add("pane", plane(4000, 4000), half_clear(), upright(0));
+  expect(look(wide, 0.5f, 0.0f).at("AO"), {0.75f, 0.75f, 0.75f});
+  SceneKit room;
+  room.add("room", cuboid(vec3(-1), vec3(1)), diffuse(Rgb(0.5f)));
+  room.camera({0, 0, 0}, {0, 1, 0}, 1e-4f);
+  expect(look(room, 0.5f, 0.0f).at("AO"), {0, 0, 0});
+  expect(look(room, 0.5f, 0.5f).at("AO"), {1, 1, 1});
 }
 
 TEST(DataPasses, FollowMirrorsForDenoisersAlone) {
