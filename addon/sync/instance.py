@@ -115,13 +115,18 @@ class InstanceSync:
         """
         identity = (obj.data.as_pointer(), attributes)
         sources = {item.original.as_pointer() for item in (obj, obj.data, owner)}
-        key = self._cache.mesh(identity, sources, lambda key: self._send_mesh(key, obj, attributes))
+        key = self._cache.mesh(
+            identity,
+            sources,
+            lambda key, log: self._send_mesh(key, obj, attributes, log),
+            self._log,
+        )
         self._attributes[key] = attributes
         return key
 
-    def _send_mesh(self, key: str, obj, attributes: frozenset[str]) -> bool:
+    def _send_mesh(self, key: str, obj, attributes: frozenset[str], log) -> bool:
         try:
-            arrays = mesh_arrays(obj.to_mesh(), len(obj.material_slots), attributes, self._log)
+            arrays = mesh_arrays(obj.to_mesh(), len(obj.material_slots), attributes, log)
             if arrays is None:
                 return False
             self._builder.set_mesh(key, name=obj.data.name, **arrays)

@@ -219,6 +219,14 @@ class JANUS_RENDER_PT_performance(JanusPanel, bpy.types.Panel):
         threads.prop(render, "threads")
 
 
+class JANUS_RENDER_PT_performance_final_render(JanusPanel, bpy.types.Panel):
+    bl_label = "Final Render"
+    bl_parent_id = "JANUS_RENDER_PT_performance"
+
+    def draw(self, context):
+        self.column().prop(context.scene.render, "use_persistent_data", text="Persistent Data")
+
+
 class JANUS_VIEWLAYER_PT_override(JanusPanel, bpy.types.Panel):
     bl_label = "Override"
     bl_context = "view_layer"
@@ -246,5 +254,6 @@ CLASSES = (
     JANUS_RENDER_PT_film,
     JANUS_RENDER_PT_film_transparency,
     JANUS_RENDER_PT_performance,
+    JANUS_RENDER_PT_performance_final_render,
     JANUS_VIEWLAYER_PT_override,
 )
