@@ -32,7 +32,7 @@ class KeptScene:
         self._pending = NOTHING
         self._complete = False
         self._generation = generation()
-        self._marks = {}  # of images when they were sent
+        self._marks = {}  # of images at the last sync
 
     def note(self, depsgraph) -> None:
         found = read_changes(depsgraph)
@@ -43,17 +43,13 @@ class KeptScene:
         known = self._complete and self._generation == generation()
         found, self._pending = self._pending, NOTHING
         self._complete, self._generation = False, generation()
-        return found | Changes(frozenset(), self._edited(), False) if known else None
+        before, self._marks = self._marks, marks()
+        edited = (k for k, mark in self._marks.items() if mark is None or mark != before.get(k))
+        return found | Changes(frozenset(), frozenset(edited), False) if known else None
 
     def end(self) -> None:
-        self._marks = marks()
+        self._marks = marks(self._marks)  # there are more of them: what was sent has been read
         self._complete = True
-
-    def _edited(self) -> frozenset[str]:
-        """The keys of images that are not what they were, or may not be."""
-        return frozenset(
-            key for key, mark in marks().items() if mark is None or mark != self._marks.get(key)
-        )
 
 
 def images_of_trees(depsgraph) -> set[str]:
@@ -65,8 +61,13 @@ def images_of_trees(depsgraph) -> set[str]:
     return {image_key(image) for image in images if isinstance(image, bpy.types.Image)}
 
 
-def marks() -> dict[str, tuple | None]:
-    return {image_key(image): mark(image) for image in bpy.data.images}
+def marks(known=()) -> dict[str, tuple | None]:
+    """Of all images, by key; but for those that are known, where it may take long to find."""
+    found = dict(known)
+    for image in bpy.data.images:
+        key = image_key(image)
+        found[key] = found.get(key) or mark(image)
+    return found
 
 
 def mark(image) -> tuple | None:
