@@ -12,8 +12,8 @@ from .. import bridge
 from ..report import RenderCancelled, RenderRefused
 from ..sync import cycles_settings, sync_scene
 from ..sync.passes import COMBINED, denoises, guides_of, requested, unsupported
+from ..sync.settings import active_views, render_settings
 from ..sync.settings import frame as read_frame
-from ..sync.settings import render_settings
 from . import denoise
 from .partial import save_partial
 from .passes import LayerResult
@@ -66,6 +66,7 @@ def render_layer(engine, depsgraph, log, persistent: PersistentData) -> None:
 def _render(engine, depsgraph, frame, result, log, persistent) -> dict:
     core = bridge.core()
     keywords = render_settings(depsgraph)
+    _check_view(engine, depsgraph.scene_eval, log)
     with _user_errors(core):
         settings = core.RenderSettings(**keywords)
     scene, stats = _build(core, engine, depsgraph, frame, settings, log, persistent)
@@ -102,6 +103,24 @@ def _render(engine, depsgraph, frame, result, log, persistent) -> dict:
         + (f", denoising {stats['denoise_seconds']:.2f} s" if denoised else "")
     )
     return stats
+
+
+def _check_view(engine, scene, log) -> None:
+    """The one view of Stereoscopy that is rendered may have another camera, or stand beside it."""
+    camera, names = scene.camera, active_views(scene.render)
+    if not names or camera is None or camera.type != "CAMERA":
+        return
+    engine.active_view_set(names[0])
+    seen = engine.camera_override
+    if (
+        (seen is not None and seen.name != camera.name)
+        or engine.camera_model_matrix(camera) != camera.matrix_world
+        or engine.camera_shift_x(camera) != camera.data.shift_x
+    ):
+        log.warning(
+            f"Stereoscopy is not supported: the view '{names[0]}' shows what this camera sees",
+            object=camera.name,
+        )
 
 
 @contextlib.contextmanager
