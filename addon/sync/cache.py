@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a builder holds of a scene from one sync to the next, so that it need not be sent again."""
 
+from collections import Counter
 from dataclasses import dataclass, field
 
 import bpy
@@ -73,15 +74,19 @@ class SceneCache:
         self._meshes = {}  # (address of the evaluated mesh, attributes) -> SentMesh
         self._outdated = set()  # keys of meshes that the next sync sends again
         self._images = {}  # key -> what sending it had to say
-        self._placed = set()  # keys of materials, instances and lights
-        self._now_placed = set()  # those of the present sync
+        self._materials = set()  # keys
+        self._now_materials = set()  # those of the present sync
+        self._placed = Counter()  # how many instances and lights
+        self._now_placed = Counter()
         self._number = 0
         self.begin()
 
     def begin(self, changes: Changes | None = None) -> None:
         """Starts a sync; without `changes` nothing is known to be as it was."""
-        self._placed |= self._now_placed  # a sync that failed has placed things, too
-        self._used_meshes, self._used_images, self._now_placed = set(), set(), set()
+        self._materials |= self._now_materials  # a sync that failed has placed things, too
+        self._placed |= self._now_placed
+        self._now_materials, self._now_placed = set(), Counter()
+        self._used_meshes, self._used_images = set(), set()
         for identity, entry in list(self._meshes.items()):
             if changes is None or not changes.geometry.isdisjoint(entry.sources):
                 self._drop(identity)
@@ -94,8 +99,12 @@ class SceneCache:
 
     def end(self) -> None:
         """Ends a sync: what it did not use goes."""
-        for key in self._placed - self._now_placed:
+        for key in self._materials - self._now_materials:
             self._builder.remove(key)
+        self._materials = self._now_materials
+        for kind, before in self._placed.items():
+            for number in range(self._now_placed[kind], before):
+                self._builder.remove(f"{kind}:{number}")
         self._placed = self._now_placed
         for identity in self._meshes.keys() - self._used_meshes:
             self._drop(identity)
@@ -138,14 +147,14 @@ class SceneCache:
 
     def use(self, key: str) -> str:
         """Keeps the material of this key."""
-        self._now_placed.add(key)
+        self._now_materials.add(key)
         return key
 
     def place(self, kind: str) -> str:
         """The key of the next instance or light."""
-        key = f"{kind}:{len(self._now_placed)}"
-        self._now_placed.add(key)
-        return key
+        number = self._now_placed[kind]
+        self._now_placed[kind] = number + 1
+        return f"{kind}:{number}"
 
     def _drop(self, identity) -> None:
         entry = self._meshes.pop(identity)
