@@ -131,8 +131,10 @@ def _on_undo(*_):
 
 @persistent
 def _on_render(*_):
-    """Blender does not hear of it when scripts set what add-ons have added, such as our settings.
-    With Persistent Data its copy of the scene is not made anew for each render."""
+    """Blender does not hear of all that scripts set of what add-ons have added. With Persistent
+    Data its copy of the scene is not made anew for each render."""
+    if not bpy.app.background:  # another thread may be looking at it, and it is users who edit
+        return
     for scene in bpy.data.scenes:
         if scene.render.engine == JanusRenderEngine.bl_idname and scene.render.use_persistent_data:
             scene.update_tag()

@@ -145,6 +145,30 @@ def test_settings_are_those_of_now(scene, fake_core):
     assert settings.expressions
 
 
+def test_settings_are_those_of_now_in_a_window(scene, fake_core):
+    """There, Blender must hear of them."""
+    furnish(scene)
+    scene.render.use_persistent_data = True
+    handlers, on_render = bpy.app.handlers.render_pre, part("engine")._on_render
+    handlers.remove(on_render)
+    try:
+        bpy.ops.render.render()
+        scene.janus.samples, scene.janus.integrator = 3, "PT"
+        bpy.ops.render.render()
+        assert (fake_core.settings.samples, fake_core.settings.integrator) == (3, "pt")
+        bpy.ops.janus.add_light_path_expression()
+        bpy.ops.render.render()
+        assert len(fake_core.settings.expressions) == 1
+        scene.view_layers[0].janus.expressions[0].expression = "LDE"
+        bpy.ops.render.render()
+        assert fake_core.settings.expressions[0][1] == "LDE"
+        bpy.ops.janus.remove_light_path_expression()
+        bpy.ops.render.render()
+        assert not fake_core.settings.expressions
+    finally:
+        handlers.append(on_render)
+
+
 def test_nothing_is_kept_by_default(scene, fake_core):
     bpy.ops.render.render()
     builder = weakref.ref(fake_core.builder)
