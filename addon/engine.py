@@ -8,7 +8,9 @@ from bpy.app.handlers import persistent
 
 from . import bridge, report
 from .render import final, passes, preview, viewport_draw
-from .render.viewport import Viewport, forget_addresses
+from .render.persistent import PersistentData
+from .render.viewport import Viewport
+from .sync.cache import forget_addresses
 from .sync.settings import view_denoising, view_settings
 from .sync.view import read_view
 
@@ -27,6 +29,7 @@ class JanusRenderEngine(bpy.types.RenderEngine):
     # Blender versions differ in what they pass; a TypeError here renders black without an error.
     def __init__(self, *args, **kwargs):
         super().__init__(*args, **kwargs)
+        self._persistent = PersistentData()
         self._viewport = None  # made when one is to be drawn
         self._problem = ""  # of the last sync for it
         self._last_trace = ""
@@ -40,7 +43,7 @@ class JanusRenderEngine(bpy.types.RenderEngine):
             return
         log = report.DiagnosticsLog()
         try:
-            final.render_layer(self, depsgraph, log)
+            final.render_layer(self, depsgraph, log, self._persistent)
         except (report.RenderRefused, bridge.CoreUnavailable) as error:
             log.error(str(error))
         except Exception as error:  # everything else is ours to fix: show where it happened
@@ -126,16 +129,31 @@ def _on_undo(*_):
     forget_addresses()
 
 
-HANDLERS = (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post)
+@persistent
+def _on_render(*_):
+    """Blender does not hear of all that scripts set of what add-ons have added. With Persistent
+    Data its copy of the scene is not made anew for each render."""
+    if not bpy.app.background:  # another thread may be looking at it, and it is users who edit
+        return
+    for scene in bpy.data.scenes:
+        if scene.render.engine == JanusRenderEngine.bl_idname and scene.render.use_persistent_data:
+            scene.update_tag()
+
+
+HANDLERS = (
+    (bpy.app.handlers.undo_post, _on_undo),
+    (bpy.app.handlers.redo_post, _on_undo),
+    (bpy.app.handlers.render_pre, _on_render),
+)
 
 
 def register():
     bpy.utils.register_class(JanusRenderEngine)
-    for handlers in HANDLERS:
-        handlers.append(_on_undo)
+    for handlers, function in HANDLERS:
+        handlers.append(function)
 
 
 def unregister():
-    for handlers in HANDLERS:
-        handlers.remove(_on_undo)
+    for handlers, function in HANDLERS:
+        handlers.remove(function)
     bpy.utils.unregister_class(JanusRenderEngine)

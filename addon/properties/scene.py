@@ -14,7 +14,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from .view_layer import check, update_passes
+from .view_layer import check, heard, update_passes
 
 # The numbers are what .blend files hold: never change or reuse one.
 INTEGRATORS = (
@@ -67,6 +67,7 @@ def _check_strategies(self, _context):
     self.strategies_message = check("check_strategies", self.strategies)
 
 
+@heard
 class JanusSceneSettings(bpy.types.PropertyGroup):
     """Render settings of Janus"""
 

@@ -27,10 +27,20 @@ def update_passes(self, _context):
         layer.update_render_passes()
 
 
+def heard(cls):
+    """A class of settings that Blender hears of when scripts set them: those that have an update
+    function."""
+    for setting in cls.__annotations__.values():
+        if setting.function is not CollectionProperty:
+            setting.keywords.setdefault("update", lambda _self, _context: None)
+    return cls
+
+
 def _check_expression(self, _context):
     self.message = check("check_expression", self.expression)
 
 
+@heard
 class JanusLightPathExpression(bpy.types.PropertyGroup):
     """A render pass that holds the light of certain paths"""
 
@@ -51,6 +61,7 @@ class JanusLightPathExpression(bpy.types.PropertyGroup):
     )
 
 
+@heard
 class JanusViewLayerSettings(bpy.types.PropertyGroup):
     """View layer settings of Janus"""
 

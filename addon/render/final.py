@@ -12,11 +12,12 @@ from .. import bridge
 from ..report import RenderCancelled, RenderRefused
 from ..sync import cycles_settings, sync_scene
 from ..sync.passes import COMBINED, denoises, guides_of, requested, unsupported
+from ..sync.settings import active_views, render_settings
 from ..sync.settings import frame as read_frame
-from ..sync.settings import render_settings
 from . import denoise
 from .partial import save_partial
 from .passes import LayerResult
+from .persistent import PersistentData
 from .progress import Rhythm, fraction, status
 
 POLL_SECONDS = 0.05
@@ -39,11 +40,12 @@ keep_passes_of: set[str] = set()
 kept_passes: dict[str, dict[str, np.ndarray]] = {}
 
 
-def render_layer(engine, depsgraph, log) -> None:
+def render_layer(engine, depsgraph, log, persistent: PersistentData) -> None:
     """Renders the depsgraph's view layer into Blender's result.
 
-    Findings go to `log`. Whatever is raised means that the render failed; Blender has got a
-    full-size result then, too, and pixels that existed are saved in the partial file.
+    Findings go to `log`, `persistent` is the engine's. Whatever is raised means that the render
+    failed; Blender has got a full-size result then, too, and pixels that existed are saved in the
+    partial file.
     """
     last_render.clear()
     kept_passes.pop(depsgraph.view_layer_eval.name, None)
@@ -52,7 +54,8 @@ def render_layer(engine, depsgraph, log) -> None:
     global running
     running += 1
     try:
-        last_render.update(_render(engine, depsgraph, frame, result, log))
+        persistent.begin(depsgraph)
+        last_render.update(_render(engine, depsgraph, frame, result, log, persistent))
     except RenderCancelled:
         log.info("Stopped by the user before the first sample")
     finally:
@@ -60,12 +63,13 @@ def render_layer(engine, depsgraph, log) -> None:
         result.end()
 
 
-def _render(engine, depsgraph, frame, result, log) -> dict:
+def _render(engine, depsgraph, frame, result, log, persistent) -> dict:
     core = bridge.core()
     keywords = render_settings(depsgraph)
+    _check_view(engine, depsgraph.scene_eval, log)
     with _user_errors(core):
         settings = core.RenderSettings(**keywords)
-    scene, stats = _build(core, engine, depsgraph, frame, settings, log)
+    scene, stats = _build(core, engine, depsgraph, frame, settings, log, persistent)
     with _user_errors(core):
         session = core.RenderSession(scene, settings)
     log.extend(session.diagnostics)
@@ -101,6 +105,24 @@ def _render(engine, depsgraph, frame, result, log) -> dict:
     return stats
 
 
+def _check_view(engine, scene, log) -> None:
+    """The one view of Stereoscopy that is rendered may have another camera, or stand beside it."""
+    camera, names = scene.camera, active_views(scene.render)
+    if not names or camera is None or camera.type != "CAMERA":
+        return
+    engine.active_view_set(names[0])
+    seen = engine.camera_override
+    if (
+        (seen is not None and seen.name != camera.name)
+        or engine.camera_model_matrix(camera) != camera.matrix_world
+        or engine.camera_shift_x(camera) != camera.data.shift_x
+    ):
+        log.warning(
+            f"Stereoscopy is not supported: the view '{names[0]}' shows what this camera sees",
+            object=camera.name,
+        )
+
+
 @contextlib.contextmanager
 def _user_errors(core):
     """What the core refuses here, a user has typed: it is said to the user, without a traceback."""
@@ -110,10 +132,15 @@ def _user_errors(core):
         raise RenderRefused(str(error)) from error
 
 
-def _build(core, engine, depsgraph, frame, settings, log):
+def _build(core, engine, depsgraph, frame, settings, log, persistent):
     """The immutable scene and the seconds that it took. Raises RenderCancelled."""
     started = time.perf_counter()
-    builder = core.SceneBuilder()
+    if frame.capture_path:
+        persistent.clear()  # all has to be sent to be captured
+    else:
+        persistent.start(core, depsgraph)
+    kept = persistent.kept
+    builder = kept.builder if kept else core.SceneBuilder()
     capture = bridge.capturing_builder(builder) if frame.capture_path else None
     engine.update_stats("", "Synchronizing objects")
     sync_scene(
@@ -122,6 +149,7 @@ def _build(core, engine, depsgraph, frame, settings, log):
         log,
         engine.test_break,
         lambda time: engine.frame_set(math.floor(time), subframe=time - math.floor(time)),
+        kept,
     )
     if capture:
         capture.save(frame.capture_path, settings)
@@ -132,6 +160,7 @@ def _build(core, engine, depsgraph, frame, settings, log):
         scene = builder.commit(poll=engine.test_break)
     except core.Cancelled:
         raise RenderCancelled from None
+    persistent.built(scene)
     log.extend(scene.diagnostics)
     log.flush(engine)  # warnings are worth most while the render can still be stopped
     return scene, {

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import report
-from ..sync.cache import SceneCache, read_changes
+from ..sync.cache import SceneCache, generation, read_changes
 from ..sync.difference import DifferenceBuilder
 from ..sync.scene_sync import sync_objects
 from .viewport_denoise import PictureDenoiser
@@ -24,14 +24,6 @@ STEP_SECONDS = 0.5  # and a sample in smaller pixels after it; else there is a s
 SHORT_WAIT = 0.04  # seconds for which drawing may wait for what comes soon
 MIN_INTERVAL = 0.1  # seconds between two pictures
 MAX_SHARE = 0.1  # of the time may go into fetching and drawing them
-
-_generation = 0
-
-
-def forget_addresses() -> None:
-    """After an undo: data have moved, and what is known of addresses is wrong."""
-    global _generation
-    _generation += 1
 
 
 @dataclass(frozen=True)
@@ -72,14 +64,14 @@ class Viewport:
         self._builder = DifferenceBuilder(self._core.SceneBuilder())
         self._cache = SceneCache(self._builder)
         self._known = False  # has the builder got the scene?
-        self._generation = _generation
+        self._generation = generation()
         self._task = self._scene = None
         self._outdated = False  # does the builder hold more than the scene and the task?
         self._restart = False  # is the session another one's?
 
     def sync(self, depsgraph, shown=None) -> None:
         """Sends to the core what has changed. `shown`: see InstanceSync.run()."""
-        if self._generation != _generation:
+        if self._generation != generation():
             self._start_over()
         changes = read_changes(depsgraph) if self._known else None
         if changes and changes.only_cameras:

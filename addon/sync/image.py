@@ -34,28 +34,34 @@ class ImageSync:
             image = images.get(properties.get("image"))
             if image is None:
                 continue
-            warn = _Warner(self._log, owner, node, image)
+            key = properties["image"]
             if image.source in ANIMATED:
                 frame = user_frame(self._frame, *properties["image_user"])
-                properties["image"] += f"@{frame}"
-                self._send_frame(properties["image"], image, frame, warn)
+                properties["image"] = key = f"{key}@{frame}"
+                self._once(key, image, owner, node, self._send_frame, frame)
             elif image.source == "TILED":
                 properties["tiles"] = [tile.number for tile in image.tiles]
                 for tile in image.tiles:
-                    self._send_tile(f"{properties['image']}:{tile.number}", image, tile, warn)
-            elif not self._cache.has_image(properties["image"]):
-                self._send(properties["image"], image, warn)
+                    part = f"{key}:{tile.number}"
+                    self._once(part, image, owner, node, self._send_tile, tile)
+            else:
+                self._once(key, image, owner, node, self._send)
 
-    def _send_frame(self, key: str, image, frame: int, warn) -> None:
-        if not self._cache.has_image(key):
-            with at_frame(image, frame):
-                self._send(key, image, warn)
+    def _once(self, key: str, image, owner, node, send, *which) -> None:
+        self._cache.image(
+            key,
+            lambda log: send(key, image, _Warner(log, owner, node, image), *which),
+            self._log,
+        )
 
-    def _send_tile(self, key: str, image, tile, warn) -> None:
-        if not self._cache.has_image(key):
-            with loaded_tile(image, tile) as found:
-                if found is not None:  # else the core names the tile
-                    self._send(key, found, warn, image.name)
+    def _send_frame(self, key: str, image, warn, frame: int) -> None:
+        with at_frame(image, frame):
+            self._send(key, image, warn)
+
+    def _send_tile(self, key: str, image, warn, tile) -> None:
+        with loaded_tile(image, tile) as found:
+            if found is not None:  # else the core names the tile
+                self._send(key, found, warn, image.name)
 
     def _send(self, key: str, image, warn, name: str = "") -> None:
         found = pixels(image, warn)

@@ -18,6 +18,7 @@ from .visibility import (
 # Object types that have a surface. Whatever they are, the depsgraph shows their faces as an
 # instance of type MESH beside the object itself, so only that is exported.
 MASK = 0xFFFFFFFF  # of 32 bits
+POLL_EVERY = 64  # instances of what is known
 SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
 
@@ -34,7 +35,7 @@ class InstanceSync:
         self._motion = motion
         self._properties = InstanceProperties(log)
         self._kinds = {}  # addresses of an object, its data and who shows it -> arguments
-        self._checked = set()
+        self._checked = set()  # addresses of objects
         self._attributes = {}  # key of a mesh -> those that it was sent with
 
     def run(self, depsgraph, shown=None) -> None:
@@ -44,48 +45,51 @@ class InstanceSync:
         self._linking = Linking(depsgraph, self._log)
         # What passes read of meshes, whatever the materials.
         self._of_passes = frozenset(["uv:"] if self._view_layer.use_pass_uv else [])
-        for instance in depsgraph.object_instances:
-            self._poll()
+        for number, instance in enumerate(depsgraph.object_instances):
+            if number % POLL_EVERY == 0:
+                self._poll()
             obj = instance.object  # transient: nothing of it may be kept
-            self._check(obj)
+            origin = obj.original.as_pointer()
+            if origin not in self._checked:
+                self._checked.add(origin)
+                self._check(obj)
             if not instance.show_self or not (shown is None or shown(owner_of(instance).original)):
                 continue
-            if obj.type == "MESH":
-                self._surface(instance)
-            elif obj.type == "LIGHT":
+            kind = obj.type
+            if kind == "MESH":
+                self._surface(instance, obj, origin)
+            elif kind == "LIGHT":
                 key = self._cache.place("light")
                 matrix = instance.matrix_world
                 links = self._linking.of_light(obj, owner_of(instance))
                 sync_light(
                     self._builder, key, obj, matrix, depsgraph, self._images, links, self._log
                 )
-            elif obj.type in UNSUPPORTED_TYPES:
-                self._log.warning(UNSUPPORTED_TYPES[obj.type], object=obj.name)
+            elif kind in UNSUPPORTED_TYPES:
+                self._log.warning(UNSUPPORTED_TYPES[kind], object=obj.name)
 
-    def _surface(self, instance) -> None:
-        obj = instance.object
-        owner = owner_of(instance)
-        # Instances may be a hundred thousand; what they have in common is read once.
-        kind = (obj.original.as_pointer(), obj.data.as_pointer(), owner.original.as_pointer())
+    def _surface(self, instance, obj, origin: int) -> None:
+        # Instances may be a million: what they have in common is read once, and what Blender makes
+        # anew at each look (objects, matrices) is looked at once.
+        owner = instance.parent if instance.is_instance else obj
+        kind = (origin, obj.data.as_pointer(), owner.as_pointer() if owner is not obj else 0)
         if kind not in self._kinds:
+            self._poll()
             self._kinds[kind] = self._arguments(instance)
         arguments, own_keys = self._kinds[kind]
-        if arguments is not None:
-            if own_keys:
-                own = self._properties.attributes(instance, own_keys)
-                arguments = arguments | {"attributes": arguments["attributes"] | own}
-            key = self._cache.place("instance")
-            self._builder.set_instance(
-                key,
-                transform=np.array(instance.matrix_world, dtype=np.float64),
-                random=object_random(obj, instance.random_id),
-                **arguments,
-            )
-            if self._motion:
-                mesh = arguments["mesh"]
-                self._motion.saw(
-                    instance, owner, key, mesh, self._attributes[mesh], self._depsgraph
-                )
+        if arguments is None:
+            return
+        if own_keys:
+            own = self._properties.attributes(instance, own_keys)
+            arguments = arguments | {"attributes": arguments["attributes"] | own}
+        key = self._cache.place("instance")
+        arguments["transform"] = np.array(instance.matrix_world, dtype=np.float64)
+        arguments["random"] = object_random(obj, instance.random_id)
+        self._builder.set_instance(key, **arguments)
+        if self._motion:
+            mesh = arguments["mesh"]
+            attributes = self._attributes[mesh]
+            self._motion.saw(instance, owner, key, mesh, attributes, self._depsgraph)
 
     def _arguments(self, instance) -> tuple[dict | None, list[str]]:
         """Those of set_instance that all instances of a kind share (None: there are no faces), and
@@ -121,13 +125,18 @@ class InstanceSync:
         """
         identity = (obj.data.as_pointer(), attributes)
         sources = {item.original.as_pointer() for item in (obj, obj.data, owner)}
-        key = self._cache.mesh(identity, sources, lambda key: self._send_mesh(key, obj, attributes))
+        key = self._cache.mesh(
+            identity,
+            sources,
+            lambda key, log: self._send_mesh(key, obj, attributes, log),
+            self._log,
+        )
         self._attributes[key] = attributes
         return key
 
-    def _send_mesh(self, key: str, obj, attributes: frozenset[str]) -> bool:
+    def _send_mesh(self, key: str, obj, attributes: frozenset[str], log) -> bool:
         try:
-            arrays = mesh_arrays(obj.to_mesh(), len(obj.material_slots), attributes, self._log)
+            arrays = mesh_arrays(obj.to_mesh(), len(obj.material_slots), attributes, log)
             if arrays is None:
                 return False
             self._builder.set_mesh(key, name=obj.data.name, **arrays)
@@ -136,11 +145,7 @@ class InstanceSync:
             obj.to_mesh_clear()
 
     def _check(self, obj) -> None:
-        """Looks for unsupported settings, once per object however often it is instanced."""
-        identity = obj.original.as_pointer()
-        if identity in self._checked:
-            return
-        self._checked.add(identity)
+        """Looks for unsupported settings."""
         check_hair(obj, self._log)
         if obj.type in SURFACE_TYPES:
             check_object(obj, self._log)

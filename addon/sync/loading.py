@@ -31,7 +31,7 @@ def at_frame(image, frame: int):
 @contextlib.contextmanager
 def loaded_tile(image, tile):
     """The image of one UDIM tile, from its file; None if there is none."""
-    name = _tile_name(image.filepath_raw, tile.number)
+    name = tile_name(image, tile)
     packed = {file.filepath: file.packed_file for file in image.packed_files}
     found = None
     try:
@@ -41,7 +41,7 @@ def loaded_tile(image, tile):
             found.pack(data=file.data, data_len=file.size)
             found.source = "FILE"
         else:
-            path = bpy.path.abspath(name, library=image.library)
+            path = tile_path(image, tile)
             if os.path.isfile(path):
                 found = bpy.data.images.load(path)
         if found is not None:
@@ -53,6 +53,12 @@ def loaded_tile(image, tile):
             bpy.data.images.remove(found)
 
 
-def _tile_name(pattern: str, number: int) -> str:
+def tile_path(image, tile) -> str:
+    return bpy.path.abspath(tile_name(image, tile), library=image.library)
+
+
+def tile_name(image, tile) -> str:
+    number = tile.number
     u, v = (number - 1001) % 10, (number - 1001) // 10
+    pattern = image.filepath_raw
     return pattern.replace("<UDIM>", str(number)).replace("<UVTILE>", f"u{u + 1}_v{v + 1}")

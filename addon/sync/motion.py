@@ -94,6 +94,7 @@ class MotionSync:
         self._objects = {}  # who shows it, and which of its instances -> _Object
         self._forms = {}  # the same, of one for each mesh that may change -> _Form
         self._meshes = set()  # keys of all that have been seen
+        self.deformed = set()  # and of those that were sent with motion
 
     def saw(self, instance, owner, key: str, mesh: str, attributes, depsgraph) -> None:
         """An instance has been placed."""
@@ -170,6 +171,7 @@ class MotionSync:
                 object=form.name,
             )
         elif _differ(positions):
+            self.deformed.add(form.key)
             builder.set_mesh_motion(
                 form.key,
                 positions=np.stack(positions),

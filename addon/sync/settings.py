@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
+from ..report import RenderRefused
 from . import cycles_settings, passes
 
 UNLIMITED_SAMPLES = 1 << 24
@@ -45,6 +46,23 @@ def frame(depsgraph, is_animation: bool = False) -> Frame:
     )
 
 
+def active_views(render) -> list[str]:
+    """The names of the views of Stereoscopy that are to be rendered."""
+    stereo = render.views_format == "STEREO_3D"
+    names = [view.name for view in render.views if view.use] if render.use_multiview else []
+    return [name for name in names if not stereo or name in ("left", "right")]
+
+
+def check_views(render) -> None:
+    names = active_views(render)
+    if len(names) > 1:
+        views = ", ".join(f"'{name}'" for name in names)
+        raise RenderRefused(
+            f"Stereoscopy (Output properties) asks for the views {views}, and Janus renders one: "
+            "switch off Stereoscopy, or all views but one"
+        )
+
+
 def frame_size(render) -> tuple[int, int]:
     """The full frame in pixels, rounded as Blender rounds."""
     percent = render.resolution_percentage
@@ -72,6 +90,7 @@ def crop_window(render, width: int, height: int):
 def render_settings(depsgraph) -> dict:
     """The keyword arguments of janus_core.RenderSettings. Raises RenderRefused."""
     scene = depsgraph.scene_eval
+    check_views(scene.render)
     width, height = frame_size(scene.render)
     return {
         **light_settings(scene),

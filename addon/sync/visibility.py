@@ -21,11 +21,8 @@ def light_group(owner, view_layer) -> str:
 
 def check_scene(depsgraph, log) -> None:
     """What concerns the whole scene or view layer."""
-    render = depsgraph.scene_eval.render
     if notice := cycles_settings.notice(depsgraph.scene_eval):
         log.info(notice)
-    if render.use_multiview:
-        log.warning("Stereoscopy is not supported, all views show the same picture")
 
 
 def seen_by(obj, rays=RAYS) -> dict:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""World and light properties. Objects have Blender's own panels."""
+"""World, light, camera and object properties, where Blender's own panels do not do."""
 
 import bpy
 
+from ..sync.visibility import LIGHT_RAYS, RAYS
 from .engine_panels import JanusPanel
 from .material import PreviewPanel, draw_surface, draw_use_nodes
 
@@ -32,6 +33,23 @@ class JANUS_WORLD_PT_surface(JanusPanel, bpy.types.Panel):
                 return
         self.layout.use_property_split = True
         draw_surface(self.layout, world.node_tree)
+
+
+class JANUS_WORLD_PT_ray_visibility(JanusPanel, bpy.types.Panel):
+    """The settings are Cycles' own: a file has them once."""
+
+    bl_label = "Ray Visibility"
+    bl_context = "world"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and hasattr(context.world, "cycles_visibility")
+
+    def draw(self, context):
+        column = self.column()
+        for ray in LIGHT_RAYS:
+            column.prop(context.world.cycles_visibility, ray)
 
 
 class LightPanel(JanusPanel):
@@ -119,11 +137,48 @@ class JANUS_LIGHT_PT_nodes(LightPanel, bpy.types.Panel):
             draw_surface(self.layout, context.light.node_tree)
 
 
+class JANUS_LIGHT_PT_settings(LightPanel, bpy.types.Panel):
+    bl_label = "Settings"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        light = context.light
+        column = self.column()
+        if hasattr(light, "cycles"):  # a file has the setting once
+            column.prop(light.cycles, "max_bounces")
+        column.prop(light, "use_shadow", text="Cast Shadow")
+
+
+class JANUS_OBJECT_PT_ray_visibility(JanusPanel, bpy.types.Panel):
+    """Blender's panel of the visibility shows these settings in Eevee only."""
+
+    bl_label = "Ray Visibility"
+    bl_context = "object"
+    bl_parent_id = "OBJECT_PT_visibility"
+
+    @classmethod
+    def poll(cls, context):
+        obj = context.object
+        if not super().poll(context) or not obj:
+            return False
+        kinds = {"MESH", "CURVE", "SURFACE", "META", "FONT", "LIGHT"}
+        return obj.type in kinds or obj.instance_type == "COLLECTION"
+
+    def draw(self, context):
+        obj = context.object
+        column = self.column()
+        for ray in LIGHT_RAYS if obj.type == "LIGHT" else RAYS:
+            column.prop(obj, f"visible_{ray}", text=ray.capitalize())
+
+
 CLASSES = (
     JANUS_WORLD_PT_preview,
     JANUS_WORLD_PT_surface,
+    JANUS_WORLD_PT_ray_visibility,
     JANUS_LIGHT_PT_preview,
     JANUS_LIGHT_PT_light,
     JANUS_LIGHT_PT_beam,
     JANUS_LIGHT_PT_nodes,
+    JANUS_LIGHT_PT_settings,
+    JANUS_OBJECT_PT_ray_visibility,
 )

@@ -5,38 +5,60 @@ import bpy
 
 ENGINE = "JANUS"
 
-# Panels that would offer what Janus does not do, or does in a panel of its own.
+# Panels that stay closed though they are for every engine, or for Cycles, and why. A name that ends
+# in * stands for all that begin so.
+OWN = "Janus has one of its own"
 EXCLUDED = {
-    "DATA_PT_light",
-    "DATA_PT_spot",
-    "NODE_DATA_PT_light",
-    "DATA_PT_volume_render",
-    "MATERIAL_PT_freestyle_line",
-    "RENDER_PT_freestyle",
-    "RENDER_PT_gpencil",
-    "RENDER_PT_stereoscopy",
-    "VIEWLAYER_PT_filter",
-    "VIEWLAYER_PT_layer_passes",
+    "DATA_PT_camera_stereoscopy": "Janus renders one view",
+    "DATA_PT_light": OWN,
+    "DATA_PT_lightprobe*": "for Eevee's probes",
+    "DATA_PT_preview": OWN,
+    "DATA_PT_spot": OWN,
+    "DATA_PT_volume_render": "Janus renders no volumes",
+    "MATERIAL_PT_freestyle_line": "Janus draws no lines",
+    "NODE_DATA_PT_light": OWN,
+    "OBJECT_PT_shadow_terminator": "Janus does not move it",
+    "RENDER_PT_freestyle": "Janus draws no lines",
+    "RENDER_PT_gpencil": "Janus renders no Grease Pencil",
+    "RENDER_PT_stereoscopy": "Janus renders one view",
+    "VIEWLAYER_PT_filter": OWN,
+    "VIEWLAYER_PT_freestyle*": "Janus draws no lines",
+    "VIEWLAYER_PT_layer_passes*": OWN,
+    "VIEWLAYER_PT_override": OWN,
 }
-EXCLUDED_PREFIXES = ("VIEWLAYER_PT_freestyle", "DATA_PT_lightprobe")
+# Made for Blender's own engines, and what Janus needs: Cycles has copies of them.
+INCLUDED = {"DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture", "EEVEE_WORLD_PT_mist"}
 
 _opened: list[type] = []
 
 
-def wanted_panels() -> list[type]:
-    """Panels made for every engine, less those that do not apply."""
-    return [
-        panel
-        for panel in bpy.types.Panel.__subclasses__()
-        if "BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ())
-        and panel.__name__ not in EXCLUDED
-        and not panel.__name__.startswith(EXCLUDED_PREFIXES)
-    ]
+def why_closed(panel: type) -> str:
+    """Why a panel of Blender's stays closed to Janus; empty: it is open."""
+    name = panel.__name__
+    if name in INCLUDED:
+        return ""
+    for pattern, reason in EXCLUDED.items():
+        start = pattern.removesuffix("*")
+        if name == start or (start != pattern and name.startswith(start)):
+            return reason
+    engines = panel.COMPAT_ENGINES - {ENGINE}
+    if "BLENDER_RENDER" not in engines:
+        return "for " + ", ".join(sorted(engines))
+    parent = getattr(bpy.types, getattr(panel, "bl_parent_id", ""), None)
+    if hasattr(parent, "COMPAT_ENGINES") and why_closed(parent):
+        return f"part of {parent.__name__}"
+    return ""
+
+
+def panels_of_engines() -> list[type]:
+    """Those of Blender and its add-ons that are for some engines only."""
+    panels = bpy.types.Panel.__subclasses__()
+    return [panel for panel in panels if getattr(panel, "COMPAT_ENGINES", set()) - {ENGINE}]
 
 
 def register():
-    for panel in wanted_panels():
-        if ENGINE not in panel.COMPAT_ENGINES:
+    for panel in panels_of_engines():
+        if ENGINE not in panel.COMPAT_ENGINES and not why_closed(panel):
             panel.COMPAT_ENGINES.add(ENGINE)
             _opened.append(panel)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Material properties: the slots and the surface."""
+"""Material properties: the slots, the surface and the settings."""
 
 import bpy
 
@@ -87,13 +87,16 @@ class JANUS_MATERIAL_PT_preview(PreviewPanel, bpy.types.Panel):
         return None if material and material.grease_pencil else material
 
 
-class JANUS_MATERIAL_PT_surface(JanusPanel, bpy.types.Panel):
-    bl_label = "Surface"
+class MaterialPanel(JanusPanel):
     bl_context = "material"
 
     @classmethod
     def poll(cls, context):
         return super().poll(context) and context.material and not context.material.grease_pencil
+
+
+class JANUS_MATERIAL_PT_surface(MaterialPanel, bpy.types.Panel):
+    bl_label = "Surface"
 
     def draw(self, context):
         material = context.material
@@ -106,4 +109,21 @@ class JANUS_MATERIAL_PT_surface(JanusPanel, bpy.types.Panel):
         draw_surface(self.layout, material.node_tree)
 
 
-CLASSES = (JANUS_MATERIAL_PT_context, JANUS_MATERIAL_PT_preview, JANUS_MATERIAL_PT_surface)
+class JANUS_MATERIAL_PT_settings(MaterialPanel, bpy.types.Panel):
+    bl_label = "Settings"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        material = context.material
+        column = self.column()
+        column.prop(material, "pass_index")
+        if hasattr(material, "cycles"):  # a file has the setting once
+            column.prop(material.cycles, "emission_sampling")
+
+
+CLASSES = (
+    JANUS_MATERIAL_PT_context,
+    JANUS_MATERIAL_PT_preview,
+    JANUS_MATERIAL_PT_surface,
+    JANUS_MATERIAL_PT_settings,
+)

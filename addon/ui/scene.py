@@ -4,7 +4,7 @@
 import bpy
 
 from ..render import denoise
-from ..sync.settings import merges
+from ..sync.settings import active_views, merges
 from .diagnostics import draw_text
 from .engine_panels import JanusPanel
 from .passes import draw_problem
@@ -219,6 +219,38 @@ class JANUS_RENDER_PT_performance(JanusPanel, bpy.types.Panel):
         threads.prop(render, "threads")
 
 
+class JANUS_RENDER_PT_performance_final_render(JanusPanel, bpy.types.Panel):
+    bl_label = "Final Render"
+    bl_parent_id = "JANUS_RENDER_PT_performance"
+
+    def draw(self, context):
+        self.column().prop(context.scene.render, "use_persistent_data", text="Persistent Data")
+
+
+class JANUS_RENDER_PT_stereoscopy(JanusPanel, bpy.types.Panel):
+    """Of files that come with it: it has to be switched off."""
+
+    bl_label = "Stereoscopy"
+    bl_context = "output"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.scene.render.use_multiview
+
+    def draw_header(self, context):
+        self.layout.prop(context.scene.render, "use_multiview", text="")
+
+    def draw(self, context):
+        render = context.scene.render
+        column = self.column()
+        column.prop(render, "views_format", text="Format")
+        if len(active_views(render)) > 1:
+            draw_problem(column, "Janus renders one view")
+        column = self.column().column(heading="Views")
+        for view in render.views:
+            column.prop(view, "use", text=view.name)
+
+
 class JANUS_VIEWLAYER_PT_override(JanusPanel, bpy.types.Panel):
     bl_label = "Override"
     bl_context = "view_layer"
@@ -246,5 +278,7 @@ CLASSES = (
     JANUS_RENDER_PT_film,
     JANUS_RENDER_PT_film_transparency,
     JANUS_RENDER_PT_performance,
+    JANUS_RENDER_PT_performance_final_render,
+    JANUS_RENDER_PT_stereoscopy,
     JANUS_VIEWLAYER_PT_override,
 )

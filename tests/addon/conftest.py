@@ -94,6 +94,18 @@ def core(addon):
         pytest.skip(f"no native core: {error}")
 
 
+@pytest.fixture
+def renders(scene, core, monkeypatch):
+    """Renders of a furnished scene with Persistent Data."""
+    from persistent_kit import Renders
+    from viewport_kit import furnish
+
+    furnish(scene)
+    scene.render.use_persistent_data = True
+    bpy.context.view_layer.update()
+    return Renders(scene, core, monkeypatch)
+
+
 def messages(severity: str = "WARNING") -> list[str]:
     """What the last render of the current scene said."""
     kept = part("report").kept(bpy.context.scene.name_full)

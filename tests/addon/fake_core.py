@@ -11,9 +11,11 @@ CHANNELS = dict.fromkeys(ONE, 1) | {"Vector": 4}
 
 
 class Recorder:
-    """Has the methods of SceneBuilder and keeps their arguments, arrays copied."""
+    """Has the methods of SceneBuilder and keeps their arguments, arrays copied. Nothing may be set
+    twice between two commits."""
 
     def __init__(self, diagnostics=()):
+        self.fresh = set()  # (method, key) since the last commit
         self.meshes, self.materials, self.instances, self.lights = {}, {}, {}, {}
         self.images = {}
         self.attributes = {}  # name of a material -> keys of what it reads
@@ -25,25 +27,31 @@ class Recorder:
     def _copy(arguments):
         return {k: v.copy() if isinstance(v, np.ndarray) else v for k, v in arguments.items()}
 
+    def _note(self, method, key):
+        assert (method, key) not in self.fresh
+        self.fresh.add((method, key))
+
     def set_mesh(self, key, **arguments):
-        assert key not in self.meshes
+        self._note("mesh", key)
+        self.mesh_motion.pop(key, None)
         self.meshes[key] = self._copy(arguments)
 
     def set_material(self, key, **arguments):
-        assert key not in self.materials
+        self._note("material", key)
         self.materials[key] = arguments
         return self.attributes.get(arguments["name"], [])
 
     def set_image(self, key, **arguments):
-        assert key not in self.images
+        self._note("image", key)
         self.images[key] = self._copy(arguments)
 
     def set_instance(self, key, **arguments):
-        assert key not in self.instances
+        self._note("instance", key)
+        self.instance_motion.pop(key, None)
         self.instances[key] = self._copy(arguments)
 
     def set_light(self, key, **arguments):
-        assert key not in self.lights
+        self._note("light", key)
         self.lights[key] = self._copy(arguments)
 
     def set_world(self, **arguments):
@@ -51,9 +59,10 @@ class Recorder:
 
     def set_camera(self, **arguments):
         self.camera = self._copy(arguments)
+        self.camera_motion = self.shutter = None
 
     def set_mesh_motion(self, key, **arguments):
-        assert key in self.meshes
+        assert ("mesh", key) in self.fresh
         self.mesh_motion[key] = self._copy(arguments)
 
     def set_instance_motion(self, key, transforms):
@@ -66,7 +75,14 @@ class Recorder:
     def set_shutter(self, openness):
         self.shutter = openness
 
+    def remove(self, key):
+        for items in (self.meshes, self.materials, self.images, self.instances, self.lights):
+            items.pop(key, None)
+        self.mesh_motion.pop(key, None)
+        self.instance_motion.pop(key, None)
+
     def commit(self, poll=None):
+        self.fresh.clear()
         return SimpleNamespace(
             diagnostics=self.diagnostics, counts={"instances": len(self.instances)}
         )

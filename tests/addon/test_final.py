@@ -102,6 +102,7 @@ def test_settings_reach_the_core(scene, fake_core):
         "heuristic": "POWER",
         "merge_radius": 0.25,
         "adaptive_counts": True,
+        "motion_blur": False,
         "film_exposure": 1.5,
         "film_transparent": True,
         "film_transparent_glass": True,

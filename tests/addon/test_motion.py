@@ -28,9 +28,9 @@ def keys(owner, name, first, last, frames):
 
 
 def curves(action):
-    if hasattr(action, "fcurves"):
+    if not hasattr(action, "layers"):  # before 4.4
         return list(action.fcurves)
-    strips = [strip for layer in action.layers for strip in layer.strips]  # since 5.0
+    strips = [strip for layer in action.layers for strip in layer.strips]
     return [curve for strip in strips for bag in strip.channelbags for curve in bag.fcurves]
 
 

@@ -263,3 +263,53 @@ def test_denoising_is_greyed_with_the_reason(scene, monkeypatch, where):
 def test_a_view_layer_can_leave_denoising_out(scene):
     assert draw("JANUS_VIEWLAYER_PT_filter") == ["use_motion_blur", "use_denoising"]
     assert "use_denoising" in scene.view_layers[0].janus.bl_rna.properties
+
+
+def polled(name, **context):
+    names = ("object", "camera", "light", "world", "material")
+    context = dict.fromkeys(names) | {"engine": "JANUS"} | context
+    return bool(getattr(bpy.types, name).poll(SimpleNamespace(**context)))
+
+
+def test_ray_visibility_of_objects(scene):
+    name = "JANUS_OBJECT_PT_ray_visibility"
+    rays = ("camera", "diffuse", "glossy", "transmission", "shadow")
+    lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT"))
+    square = bpy.data.objects.new("Square", bpy.data.meshes.new("Square"))
+    empty = bpy.data.objects.new("Empty", None)
+    assert draw(name, object=square) == [f"visible_{ray}" for ray in rays]
+    assert draw(name, object=lamp) == [f"visible_{ray}" for ray in rays[:-1]]
+    assert polled(name, object=square) and polled(name, object=lamp)
+    assert not polled(name) and not polled(name, object=empty)
+    assert not polled(name, object=scene.camera)
+    empty.instance_type = "COLLECTION"
+    assert polled(name, object=empty)
+    assert bpy.types.OBJECT_PT_visibility.COMPAT_ENGINES >= {"JANUS"}
+
+
+def test_ray_visibility_of_worlds(scene):
+    name, world = "JANUS_WORLD_PT_ray_visibility", bpy.data.worlds.new("Sky")
+    assert not polled(name)
+    if hasattr(world, "cycles_visibility"):
+        assert polled(name, world=world)
+        assert draw(name, world=world) == ["camera", "diffuse", "glossy", "transmission"]
+
+
+def test_settings_of_lights_and_materials(scene):
+    lamp, material = bpy.data.lights.new("Lamp", "POINT"), bpy.data.materials.new("Paint")
+    assert draw("JANUS_LIGHT_PT_settings", light=lamp) == ["max_bounces", "use_shadow"]
+    drawn = draw("JANUS_MATERIAL_PT_settings", material=material)
+    assert drawn == ["pass_index", "emission_sampling"]
+
+
+def test_panoramas(scene):
+    name, camera = "JANUS_CAMERA_PT_panorama", scene.camera.data
+    assert not polled(name) and not polled(name, camera=camera)
+    camera.type = "PANO"
+    assert polled(name, camera=camera)
+    settings = part("sync.panorama").panorama(camera)
+    settings.panorama_type = "EQUIRECTANGULAR"
+    sides = ["latitude_min", "latitude_max", "longitude_min", "longitude_max"]
+    assert draw(name, camera=camera) == ["panorama_type", *sides]
+    settings.panorama_type = "MIRRORBALL"
+    assert draw(name, camera=camera) == ["panorama_type"]

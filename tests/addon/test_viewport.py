@@ -67,7 +67,7 @@ def test_the_camera_moves_alone(world_of_things, core):
 def test_after_an_undo_nothing_is_taken_for_known(world_of_things, core):
     eye = Eye(core)
     before = eye.wait()
-    part("render.viewport").forget_addresses()
+    part("sync.cache").forget_addresses()
     with followed_by(eye):
         bpy.data.objects["Ball"].location.x += 0.1
         bpy.data.objects["Ball"].location.x -= 0.1
