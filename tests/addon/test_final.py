@@ -77,6 +77,7 @@ def test_settings_reach_the_core(scene, fake_core):
     bpy.ops.render.render()
     assert vars(fake_core.settings) == {
         "data_passes": [],
+        "occlusion_distance": 0.0,
         "cryptomatte": [],
         "cryptomatte_levels": 3,
         "pass_alpha_threshold": 0.5,

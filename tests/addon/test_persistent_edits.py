@@ -79,11 +79,11 @@ def swap():
 def miss_an_update():
     """A render that is refused hears of the edit, and the next does not."""
     edit_mesh()
-    camera, render = bpy.context.scene.camera, bpy.ops.render.render
-    camera.data.type, camera.data.panorama_type = "PANO", "MIRRORBALL"
-    with pytest.raises(RuntimeError, match="mirror ball"):
-        render()
-    camera.data.type = "PERSP"
+    render = bpy.context.scene.render
+    render.use_multiview = True
+    with pytest.raises(RuntimeError, match="Stereoscopy"):
+        bpy.ops.render.render()
+    render.use_multiview = False
 
 
 def look_elsewhere():
