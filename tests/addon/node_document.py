@@ -14,6 +14,7 @@ from pathlib import Path
 
 import node_coverage
 import record_nodes
+import recordings
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENT = ROOT / "core" / "NODES.md"
@@ -68,7 +69,7 @@ def _keys(kind: str, entry: dict):
 
 def document() -> str:
     """core/NODES.md."""
-    versions = Versions(record_nodes.stored())
+    versions = Versions(recordings.stored(record_nodes.FOLDER))
     differences = json.loads(DIFFERENCES.read_text())
     known, rows = node_coverage.core_nodes(), []
     counts = {"exact": 0, "partly": 0, "refused": 0, "not for Cycles": 0}

@@ -6,25 +6,18 @@ Needs nothing but a Blender, of any version, with its own Python:
     blender -b --factory-startup --python tests/addon/record_nodes.py [-- FOLDER]
     python tests/addon/record_nodes.py [FOLDER]          (where `import bpy` works)
 
-writes the file of that Blender, here or into FOLDER. One node is one line, sorted, so that the
-difference of two versions can be read.
+writes the file of that Blender, here or into FOLDER.
 """
 
 from __future__ import annotations
 
-import json
-import os
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parent))  # blender does not
+from recordings import record  # noqa: E402
+
 FOLDER = Path(__file__).resolve().parent / "blender_nodes"
-
-
-def version() -> str:
-    """Of the running Blender; patches of a release register the same nodes."""
-    import bpy
-
-    return ".".join(map(str, bpy.app.version[:2]))
 
 
 def recording() -> dict[str, dict]:
@@ -75,27 +68,5 @@ def _settings(node) -> dict[str, list[str]]:
     }
 
 
-def to_text(nodes: dict[str, dict]) -> str:
-    lines = [f"{json.dumps(name)}: {json.dumps(node)}" for name, node in sorted(nodes.items())]
-    return "{\n" + ",\n".join(lines) + "\n}\n"
-
-
-def stored() -> dict[str, dict[str, dict]]:
-    """Every recording there is, by version, oldest first."""
-    files = sorted(FOLDER.glob("*.json"), key=lambda f: [int(n) for n in f.stem.split(".")])
-    return {file.stem: json.loads(file.read_text()) for file in files}
-
-
-def main() -> None:
-    arguments = sys.argv[1:]
-    if not sys.argv[0].endswith(".py"):  # blender's own come first
-        arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
-    file = (Path(arguments[0]) if arguments else FOLDER) / f"{version()}.json"
-    file.write_text(to_text(recording()))
-    print(f"{file}: written")
-    sys.stdout.flush()
-    os._exit(0)  # some of them hang or crash at their own exit
-
-
 if __name__ == "__main__":
-    main()
+    record(FOLDER, recording)

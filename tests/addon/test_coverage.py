@@ -6,9 +6,10 @@ import node_coverage
 import node_document
 import pytest
 import record_nodes
+import recordings
 from conftest import add_square, messages, new_material
 
-RECORDINGS = record_nodes.stored()
+RECORDINGS = recordings.stored(record_nodes.FOLDER)
 
 
 @pytest.mark.parametrize("version", RECORDINGS)
@@ -17,7 +18,7 @@ def test_nothing_is_undeclared(core, version):
 
 
 def test_recording_of_this_blender_is_up_to_date(scene):
-    version = record_nodes.version()
+    version = recordings.version()
     how = (
         "`python tests/addon/record_nodes.py`, or `blender -b --factory-startup --python "
         "tests/addon/record_nodes.py` where bpy is no module, writes the recording"

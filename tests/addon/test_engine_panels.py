@@ -4,9 +4,10 @@
 import bpy
 import pytest
 import record_panels
+import recordings
 from conftest import part
 
-RECORDINGS = record_panels.stored()
+RECORDINGS = recordings.stored(record_panels.FOLDER)
 HOW = (
     "`python tests/addon/record_panels.py`, or `blender -b --factory-startup --python "
     "tests/addon/record_panels.py` where bpy is no module, writes the recording"
@@ -19,7 +20,7 @@ def rule(scene):
 
 
 def test_recording_of_this_blender_is_up_to_date(rule):
-    version = record_panels.version()
+    version = recordings.version()
     found = record_panels.recording(rule)
     if version not in RECORDINGS:
         newest = list(RECORDINGS)[-1]
