@@ -148,7 +148,7 @@ class InstanceSync:
         """Looks for unsupported settings."""
         check_hair(obj, self._log)
         if obj.type in SURFACE_TYPES:
-            check_object(obj, self._log)
+            check_object(obj, self._depsgraph.scene_eval, self._log)
 
 
 def owner_of(instance):

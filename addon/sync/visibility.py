@@ -6,6 +6,8 @@ from . import cycles_settings
 RAYS = ("camera", "diffuse", "glossy", "transmission", "shadow")
 LIGHT_RAYS = RAYS[:-1]  # a light is in nobody's way
 
+TERMINATOR_OFFSET = 0.1001  # Cycles' default, and a little for rounding
+
 UNSUPPORTED_TYPES = {
     "VOLUME": "volumes are not supported yet",
     "POINTCLOUD": "point clouds are not supported yet",
@@ -23,6 +25,8 @@ def check_scene(depsgraph, log) -> None:
     """What concerns the whole scene or view layer."""
     if notice := cycles_settings.notice(depsgraph.scene_eval):
         log.info(notice)
+    if getattr(getattr(depsgraph.scene_eval, "cycles", None), "use_fast_gi", False):
+        log.info("Fast GI Approximation is Cycles' own: here light bounces as often as it may")
 
 
 def seen_by(obj, rays=RAYS) -> dict:
@@ -45,10 +49,25 @@ def surface_seen_by(instance, view_layer) -> dict:
     return seen
 
 
-def check_object(obj, log) -> None:
+def check_object(obj, scene, log) -> None:
     """What concerns one object that has a surface."""
     if obj.is_shadow_catcher:
         log.warning("shadow catchers are not supported yet", object=obj.name)
+    settings, of_scene = getattr(obj, "cycles", None), getattr(scene, "cycles", None)
+    if settings is None or of_scene is None:
+        return
+    for name, what in (("use_camera_cull", "Camera"), ("use_distance_cull", "Distance")):
+        if getattr(settings, name, False) and getattr(of_scene, name, False):
+            log.warning(f"{what} Cull is not supported, all of it is rendered", object=obj.name)
+    # By default all objects have a little of the second.
+    if settings.shadow_terminator_offset > 0.0 or (
+        settings.shadow_terminator_geometry_offset > TERMINATOR_OFFSET
+    ):
+        log.warning(
+            "offsets of the shadow terminator are not supported: give smooth faces more geometry "
+            "where their shadows show edges",
+            object=obj.name,
+        )
 
 
 def check_hair(obj, log) -> None:

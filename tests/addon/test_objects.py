@@ -305,6 +305,23 @@ def test_unsupported_things_are_named(scene, export):
         assert expected in text, text
 
 
+def test_settings_of_cycles_alone_are_named(scene, export):
+    add_square("Plain")
+    far, soft, softer = add_square("Far"), add_square("Soft"), add_square("Softer")
+    far.cycles.use_distance_cull = far.cycles.use_camera_cull = True
+    scene.cycles.use_distance_cull = True
+    soft.cycles.shadow_terminator_offset = 0.2
+    softer.cycles.shadow_terminator_geometry_offset = 0.3
+    scene.cycles.use_fast_gi = True
+    export()
+    found = messages()
+    assert len(found) == 3
+    assert "Object 'Far': Distance Cull" in found[0]
+    assert "Object 'Soft': offsets of the shadow terminator" in found[1]
+    assert "Object 'Softer': offsets of the shadow terminator" in found[2]
+    assert any("Fast GI" in text for text in messages("INFO"))
+
+
 def test_particle_hair_is_named(scene, export):
     square = add_square("Lawn")
     square.modifiers.new("Hair", "PARTICLE_SYSTEM")

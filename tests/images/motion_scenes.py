@@ -85,6 +85,7 @@ def _bends(scene, kit):
         point.co.z += 0.3 * math.sin(3.0 * point.co.x)
     _keys(key, "value", 0.0, 1.0)
     ball.cycles.motion_steps = 2
+    ball.cycles.shadow_terminator_geometry_offset = 0.0  # which is not ours
     scene.render.motion_blur_shutter = 1.5
 
 
