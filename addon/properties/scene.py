@@ -79,6 +79,28 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         soft_max=1 << 16,
         default=64,
     )
+    use_adaptive_sampling: BoolProperty(
+        name="Use Adaptive Sampling",
+        description="Stop pixels that have little noise before the others, which is a small bias",
+        default=False,
+    )
+    adaptive_threshold: FloatProperty(
+        name="Noise Threshold",
+        description="Noise at which pixels stop, as Cycles measures it: lower values are slower "
+        "and cleaner",
+        min=1e-5,
+        max=1.0,
+        soft_min=0.001,
+        default=0.01,
+        precision=4,
+    )
+    adaptive_min_samples: IntProperty(
+        name="Min Samples",
+        description="Samples that each pixel gets at least; 0 is a number by the threshold",
+        min=0,
+        max=4096,
+        default=0,
+    )
     preview_samples: IntProperty(
         name="Viewport Samples",
         description="Number of samples to render in the viewport, unlimited if 0",
@@ -86,6 +108,28 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         max=1 << 24,
         soft_max=1 << 16,
         default=1024,
+    )
+    use_preview_adaptive_sampling: BoolProperty(
+        name="Use Viewport Adaptive Sampling",
+        description="Stop pixels that have little noise before the others, which is a small bias",
+        default=False,
+    )
+    preview_adaptive_threshold: FloatProperty(
+        name="Viewport Noise Threshold",
+        description="Noise at which pixels stop, as Cycles measures it: lower values are slower "
+        "and cleaner",
+        min=1e-5,
+        max=1.0,
+        soft_min=0.001,
+        default=0.1,
+        precision=4,
+    )
+    preview_adaptive_min_samples: IntProperty(
+        name="Viewport Min Samples",
+        description="Samples that each pixel gets at least; 0 is a number by the threshold",
+        min=0,
+        max=4096,
+        default=0,
     )
     time_limit: FloatProperty(
         name="Time Limit",

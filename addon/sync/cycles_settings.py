@@ -19,7 +19,13 @@ SHARED = (
     "film_transparent_glass",
     "film_transparent_roughness",
     "samples",
+    "use_adaptive_sampling",
+    "adaptive_threshold",
+    "adaptive_min_samples",
     "preview_samples",
+    "use_preview_adaptive_sampling",
+    "preview_adaptive_threshold",
+    "preview_adaptive_min_samples",
     "time_limit",
     "use_denoising",
     "denoising_quality",
@@ -32,9 +38,17 @@ SHARED = (
     "preview_denoising_quality",
 )
 
-# Cycles' defaults for these are no answers: the samples are a ceiling for its adaptive sampling,
-# and denoising is a bias, which here is on only where somebody has asked for it.
-CHOSEN = ("samples", "use_denoising", "use_preview_denoising")
+# Cycles' defaults for these are no answers, so they are taken over only where somebody has set
+# something (most often the setting itself). The number of samples is a ceiling for its adaptive
+# sampling, which belongs to it; adaptive sampling and denoising are biases, which here are on only
+# where somebody has asked for them.
+CHOSEN = {
+    "samples": "samples",
+    "use_adaptive_sampling": "samples",
+    "use_preview_adaptive_sampling": "use_preview_adaptive_sampling",
+    "use_denoising": "use_denoising",
+    "use_preview_denoising": "use_preview_denoising",
+}
 
 
 def value(scene, name: str):
@@ -50,8 +64,8 @@ def from_cycles(scene) -> dict:
     if cycles is None:
         return {}
     values = {name: getattr(cycles, name) for name in SHARED if hasattr(cycles, name)}
-    for name in CHOSEN:
-        if not cycles.is_property_set(name):
+    for name, chosen in CHOSEN.items():
+        if not cycles.is_property_set(chosen):
             values.pop(name, None)
     return values
 

@@ -98,6 +98,7 @@ def render_settings(depsgraph) -> dict:
         "height": height,
         "crop": crop_window(scene.render, width, height),
         "samples": depsgraph.view_layer_eval.samples or cycles_settings.value(scene, "samples"),
+        **adaptive_settings(scene, ""),
         "seconds": cycles_settings.value(scene, "time_limit"),
         "motion_blur": scene.render.use_motion_blur and depsgraph.view_layer_eval.use_motion_blur,
         **passes.arguments(scene, depsgraph.view_layer_eval),
@@ -110,7 +111,22 @@ def view_settings(scene) -> dict:
     return {
         **light_settings(scene),
         "samples": cycles_settings.value(scene, "preview_samples") or UNLIMITED_SAMPLES,
+        **adaptive_settings(scene, "preview_"),
         "data_passes": list(denoising["guides"]) if denoising else [],
+    }
+
+
+def adaptive_settings(scene, prefix: str) -> dict:
+    """When pixels may stop; `prefix`: "preview_" of the viewport."""
+
+    def shared(name):
+        return cycles_settings.value(scene, name)
+
+    if not shared(f"use_{prefix}adaptive_sampling"):
+        return {}
+    return {
+        "noise_threshold": shared(f"{prefix}adaptive_threshold"),
+        "min_samples": shared(f"{prefix}adaptive_min_samples"),
     }
 
 

@@ -12,6 +12,9 @@ from .engine_panels import ENGINE
 FOLDER = Path(__file__).resolve().parents[1]  # where presets/ is
 SAMPLING = (
     "samples",
+    "use_adaptive_sampling",
+    "adaptive_threshold",
+    "adaptive_min_samples",
     "time_limit",
     "use_denoising",
     "denoising_input_passes",

@@ -19,12 +19,28 @@ class JANUS_RENDER_PT_sampling(JanusPanel, bpy.types.Panel):
         self.column().prop(context.scene.janus, "seed")
 
 
+def draw_samples(column, janus, prefix: str) -> None:
+    """How many samples pixels get; `prefix`: "preview_" of the viewport."""
+    adaptive = getattr(janus, f"use_{prefix}adaptive_sampling")
+    row = column.row(heading="Noise Threshold", align=True)
+    row.prop(janus, f"use_{prefix}adaptive_sampling", text="")
+    part = row.row()
+    part.active = adaptive
+    part.prop(janus, f"{prefix}adaptive_threshold", text="")
+    if adaptive:
+        column = column.column(align=True)
+        column.prop(janus, f"{prefix}samples", text="Max Samples")
+        column.prop(janus, f"{prefix}adaptive_min_samples", text="Min Samples")
+    else:
+        column.prop(janus, f"{prefix}samples", text="Samples")
+
+
 class JANUS_RENDER_PT_sampling_viewport(JanusPanel, bpy.types.Panel):
     bl_label = "Viewport"
     bl_parent_id = "JANUS_RENDER_PT_sampling"
 
     def draw(self, context):
-        self.column().prop(context.scene.janus, "preview_samples", text="Samples")
+        draw_samples(self.column(), context.scene.janus, "preview_")
 
 
 class JANUS_RENDER_PT_sampling_render(JanusPanel, bpy.types.Panel):
@@ -36,7 +52,7 @@ class JANUS_RENDER_PT_sampling_render(JanusPanel, bpy.types.Panel):
 
     def draw(self, context):
         column = self.column()
-        column.prop(context.scene.janus, "samples")
+        draw_samples(column, context.scene.janus, "")
         column.prop(context.scene.janus, "time_limit")
 
 

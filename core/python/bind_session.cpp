@@ -89,19 +89,19 @@ DataChoice to_data(const std::vector<std::string>& passes, const std::vector<std
 }
 
 RenderSettings make_settings(
-    int width, int height, const Crop& crop, int samples, double seconds, uint32_t seed,
-    int threads, int max_bounces, int max_diffuse_bounces, int max_glossy_bounces,
-    int max_transmission_bounces, int transparent_max_bounces, float clamp_direct,
-    float clamp_indirect, const std::string& integrator, const std::string& filter,
-    float filter_width, float light_paths, float connections, float merge_radius,
-    bool adaptive_counts, const std::string& heuristic, bool motion_blur, float film_exposure,
-    bool film_transparent, bool film_transparent_glass, float film_transparent_roughness,
-    bool roulette, bool check_weights, bool next_event, const std::string& connection_mode,
-    const std::string& strategies, const Expressions& expressions,
-    const std::vector<std::string>& light_passes, int strategy_images,
-    const std::vector<std::string>& data_passes, const std::vector<std::string>& cryptomatte,
-    int cryptomatte_levels, float pass_alpha_threshold, const std::array<float, 3>& mist,
-    float occlusion_distance) {
+    int width, int height, const Crop& crop, int samples, float noise_threshold, int min_samples,
+    double seconds, uint32_t seed, int threads, int max_bounces, int max_diffuse_bounces,
+    int max_glossy_bounces, int max_transmission_bounces, int transparent_max_bounces,
+    float clamp_direct, float clamp_indirect, const std::string& integrator,
+    const std::string& filter, float filter_width, float light_paths, float connections,
+    float merge_radius, bool adaptive_counts, const std::string& heuristic, bool motion_blur,
+    float film_exposure, bool film_transparent, bool film_transparent_glass,
+    float film_transparent_roughness, bool roulette, bool check_weights, bool next_event,
+    const std::string& connection_mode, const std::string& strategies,
+    const Expressions& expressions, const std::vector<std::string>& light_passes,
+    int strategy_images, const std::vector<std::string>& data_passes,
+    const std::vector<std::string>& cryptomatte, int cryptomatte_levels, float pass_alpha_threshold,
+    const std::array<float, 3>& mist, float occlusion_distance) {
   RenderSettings s;
   s.data = to_data(data_passes, cryptomatte, cryptomatte_levels);
   s.data_settings = {{mist[0], mist[1], mist[2]}, pass_alpha_threshold, occlusion_distance};
@@ -111,6 +111,8 @@ RenderSettings make_settings(
     s.crop = FilmRect{(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]};
   }
   s.samples = samples;
+  s.noise_threshold = noise_threshold;
+  s.min_samples = min_samples;
   s.seconds = seconds;
   s.seed = seed;
   s.threads = threads;
@@ -155,6 +157,8 @@ py::dict to_dict(const RenderSettings& s) {
   d["crop"] = s.crop ? py::object(py::make_tuple(s.crop->x0, s.crop->y0, s.crop->x1, s.crop->y1))
                      : py::object(py::none());
   d["samples"] = s.samples;
+  d["noise_threshold"] = s.noise_threshold;
+  d["min_samples"] = s.min_samples;
   d["seconds"] = s.seconds;
   d["seed"] = s.seed;
   d["threads"] = s.threads;
@@ -237,14 +241,16 @@ void bind_settings(py::module_& m) {
       "pass_alpha_threshold: surfaces with less alpha are looked through; occlusion_distance: how "
       "far away the surroundings occlude (0: however far); mist: start and depth in "
       "metres, and the power of the falloff; "
-      "motion_blur: whether what moves is blurred; "
+      "noise_threshold: pixels with less noise, as Cycles measures it, stop after min_samples (0: "
+      "a number by the threshold); 0: none stops; motion_blur: whether what moves is blurred; "
       "film_exposure: a factor of the colour; film_transparent: the world is not in the picture; "
       "film_transparent_glass: nor behind glass of up to film_transparent_roughness; "
       "roulette: False traces every path and every shadow ray to its end (slow); "
       "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
   settings.def(
       py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
-      "crop"_a = py::none(), "samples"_a = d.samples, "seconds"_a = d.seconds, "seed"_a = d.seed,
+      "crop"_a = py::none(), "samples"_a = d.samples, "noise_threshold"_a = d.noise_threshold,
+      "min_samples"_a = d.min_samples, "seconds"_a = d.seconds, "seed"_a = d.seed,
       "threads"_a = d.threads, "max_bounces"_a = d.max_bounces,
       "max_diffuse_bounces"_a = d.max_diffuse_bounces,
       "max_glossy_bounces"_a = d.max_glossy_bounces,

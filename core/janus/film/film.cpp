@@ -10,7 +10,7 @@ namespace {
 constexpr int kBandRows = 16;
 }
 
-Film::Film(FilmRect rect, Filter filter, size_t layers)
+Film::Film(FilmRect rect, Filter filter, size_t layers, bool adaptive)
     : rect_(rect),
       filter_(std::move(filter)),
       pass_(rect.pixels(), vec4(0.0f)),
@@ -18,7 +18,11 @@ Film::Film(FilmRect rect, Filter filter, size_t layers)
       sum_(rect.pixels(), glm::dvec4(0.0)),
       layer_count_(layers),
       pass_layers_(rect.pixels() * layers, Rgb(0.0f)),
-      sum_layers_(rect.pixels() * layers, glm::dvec3(0.0)) {}
+      sum_layers_(rect.pixels() * layers, glm::dvec3(0.0)),
+      half_(adaptive ? rect.pixels() : 0, glm::dvec3(0.0)),
+      counts_(half_.size(), 0),
+      converged_(half_.size(), 0),
+      stopped_(half_.size(), 0) {}
 
 void Film::begin_pass() {
   std::fill(pass_.begin(), pass_.end(), vec4(0.0f));
@@ -82,15 +86,57 @@ void Film::end_pass(ThreadPool& pool) {
   pool.parallel_for(rect_.height(), [&](size_t row) {
     const size_t w = rect_.width();
     for (size_t i = row * w; i < (row + 1) * w; ++i) {
-      sum_[i] += glm::dvec4(pass_[i]) + glm::dvec4(pass_splats_[i], 0.0f);
-    }
-    for (size_t i = row * w * layer_count_; i < (row + 1) * w * layer_count_; ++i) {
-      sum_layers_[i] += glm::dvec3(pass_layers_[i]);
-      pass_layers_[i] = Rgb(0.0f);
+      const bool adds = active(i);
+      if (adds) {
+        const glm::dvec4 value = glm::dvec4(pass_[i]) + glm::dvec4(pass_splats_[i], 0.0f);
+        sum_[i] += value;
+        if (!counts_.empty() && counts_[i]++ % 2 == 1) {
+          half_[i] += glm::dvec3(value);
+        }
+      }
+      for (size_t k = i * layer_count_; k < (i + 1) * layer_count_; ++k) {
+        sum_layers_[k] += adds ? glm::dvec3(pass_layers_[k]) : glm::dvec3(0.0);
+        pass_layers_[k] = Rgb(0.0f);
+      }
     }
   });
   ++passes_;
   abandoned_ = false;
+}
+
+bool Film::converged(size_t index, float threshold, float exposure) const {
+  const double scale = exposure / passes_of(index);
+  const glm::dvec3 whole = scale * glm::dvec3(sum_[index]), half = 2.0 * scale * half_[index];
+  const glm::dvec3 off = glm::abs(whole - half);
+  const double brightness = std::max(0.0, whole.x + whole.y + whole.z);
+  const double norm = brightness < 1.0 ? std::sqrt(brightness) : brightness;
+  return off.x + off.y + off.z < threshold * (1e-4 + norm);
+}
+
+size_t Film::stop_converged(float threshold, float exposure) {
+  if (counts_.empty()) {
+    return rect_.pixels();
+  }
+  const int w = rect_.width(), h = rect_.height();
+  for (size_t i = 0; i < counts_.size(); ++i) {
+    if (active(i)) {
+      converged_[i] = converged(i, threshold, exposure);
+    }
+  }
+  size_t going_on = 0;
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      bool all = true;
+      for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, h - 1); ++ny) {
+        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, w - 1); ++nx) {
+          all = all && converged_[static_cast<size_t>(ny) * w + nx];
+        }
+      }
+      stopped_[static_cast<size_t>(y) * w + x] = all;
+      going_on += all ? 0 : 1;
+    }
+  }
+  return going_on;
 }
 
 Image Film::develop(float exposure) const {
@@ -99,7 +145,7 @@ Image Film::develop(float exposure) const {
     for (size_t i = 0; i < sum_.size(); ++i) {
       for (int c = 0; c < 4; ++c) {
         const double factor = c < 3 ? exposure : 1.0;
-        image.pixels[4 * i + c] = static_cast<float>(factor * sum_[i][c] / passes_);
+        image.pixels[4 * i + c] = static_cast<float>(factor * sum_[i][c] / passes_of(i));
       }
     }
   }
@@ -109,8 +155,8 @@ Image Film::develop(float exposure) const {
 Image Film::develop_layer(size_t layer, float exposure) const {
   Image image(rect_.width(), rect_.height(), 3);
   if (passes_ > 0) {
-    const double factor = exposure / static_cast<double>(passes_);
     for (size_t i = 0; i < rect_.pixels(); ++i) {
+      const double factor = exposure / passes_of(i);
       const glm::dvec3 mean = factor * sum_layers_[i * layer_count_ + layer];
       for (int c = 0; c < 3; ++c) {
         image.pixels[3 * i + c] = static_cast<float>(mean[c]);

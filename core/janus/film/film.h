@@ -52,14 +52,20 @@ struct LayerSplat {
 // Every sum is taken in a fixed order, so the image does not depend on the number of threads.
 //
 // Layers are more pictures, in colour alone, to which integrators add what they want to show apart.
+//
+// Pixels may stop when they are good enough (adaptive sampling): they take part in no more passes,
+// with neither samples nor splats, and are means over those that they took part in. As what stops
+// a pixel is what it has got, that is a bias, if a small one.
 class Film {
  public:
-  Film(FilmRect rect, Filter filter, size_t layers = 0);
+  // `adaptive`: pixels may stop.
+  Film(FilmRect rect, Filter filter, size_t layers = 0, bool adaptive = false);
 
   // What one takes, bytes.
-  static size_t bytes(const FilmRect& rect, size_t layers) {
+  static size_t bytes(const FilmRect& rect, size_t layers, bool adaptive = false) {
     const size_t picture = sizeof(vec4) + sizeof(Rgb) + sizeof(glm::dvec4);
-    return rect.pixels() * (picture + layers * (sizeof(Rgb) + sizeof(glm::dvec3)));
+    const size_t stops = adaptive ? sizeof(glm::dvec3) + sizeof(uint32_t) + 2 : 0;
+    return rect.pixels() * (picture + stops + layers * (sizeof(Rgb) + sizeof(glm::dvec3)));
   }
 
   const FilmRect& rect() const { return rect_; }
@@ -89,8 +95,17 @@ class Film {
 
   int passes() const { return passes_; }
 
+  // Does the pixel take part in the next pass?
+  bool active(size_t index) const { return stopped_.empty() || !stopped_[index]; }
+
+  // Between passes, of an adaptive film: stops pixels that are good enough, and whose neighbours
+  // are. The measure is Cycles': how far the mean is from that of every second pass, relative to
+  // the root of the brightness (where it is bright, to the brightness), with `exposure`. Returns
+  // how many pixels go on.
+  size_t stop_converged(float threshold, float exposure);
+
   // The mean of a pixel over the passes (at least one).
-  Rgb mean(size_t index) const { return Rgb(sum_[index] / static_cast<double>(passes_)); }
+  Rgb mean(size_t index) const { return Rgb(sum_[index] / passes_of(index)); }
 
   // The mean over the passes: RGBA, premultiplied, its colour times `exposure`; black before the
   // first pass.
@@ -103,6 +118,11 @@ class Film {
   void for_each_splat(std::span<const std::vector<AnySplat>> blocks, ThreadPool& pool,
                       Add&& add) const;
 
+  double passes_of(size_t index) const {
+    return static_cast<double>(counts_.empty() ? static_cast<uint32_t>(passes_) : counts_[index]);
+  }
+  bool converged(size_t index, float threshold, float exposure) const;
+
   FilmRect rect_;
   Filter filter_;
   int passes_ = 0;
@@ -113,6 +133,11 @@ class Film {
   bool abandoned_ = false;              // was the last pass never ended?
   std::vector<Rgb> pass_layers_;        // all layers of a pixel in a row; samples and splats
   std::vector<glm::dvec3> sum_layers_;  // likewise
+  // Of an adaptive film: colour over every second pass of a pixel, its passes, whether it was good
+  // enough when it was last looked at, and whether it has stopped.
+  std::vector<glm::dvec3> half_;
+  std::vector<uint32_t> counts_;
+  std::vector<uint8_t> converged_, stopped_;
 };
 
 }  // namespace janus

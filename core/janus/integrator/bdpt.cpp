@@ -206,7 +206,7 @@ class Bdpt final : public BidirectionalIntegrator {
     for_each_row([&](size_t row, Counters& counters) {
       AdaptiveCounts::Gauge previous;
       for (size_t x = 0; x < width; ++x) {
-        if (wave.includes(x, row)) {
+        if (wave.includes(x, row) && context_.film.active(row * width + x)) {
           previous = trace_pixel(row * width + x, wave.pass, previous, moments[meter_ ? row : 0],
                                  counters);
         }

@@ -46,7 +46,7 @@ class DataPasses final : public PassIntegrator {
     for_each_row([&](size_t row, Counters& counters) {
       std::vector<std::optional<DataSample>> samples(width);
       for (size_t x = 0; x < width; ++x) {
-        if (wave.includes(x, row)) {
+        if (wave.includes(x, row) && context_.film.active(row * width + x)) {
           look(row * width + x, wave.pass, samples[x].emplace(), counters);
         }
       }

@@ -103,8 +103,9 @@ class PassIntegrator : public Integrator {
     const size_t width = context_.film.rect().width();
     for_each_row([&](size_t row, Counters& counters) {
       for (size_t x = 0; x < width; ++x) {
-        if (wave.includes(x, row)) {
-          body(row * width + x, row, counters);
+        const size_t index = row * width + x;
+        if (wave.includes(x, row) && context_.film.active(index)) {
+          body(index, row, counters);
         }
       }
     });

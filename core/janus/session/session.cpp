@@ -11,6 +11,10 @@ namespace janus {
 
 namespace {
 
+// Cycles looks at the noise every so many samples, and takes so many times its threshold.
+constexpr int kAdaptiveStep = 16;
+constexpr float kThresholdScale = 5.0f;
+
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -41,7 +45,7 @@ RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings 
   check_strategies();
   check_lights();
   film_.emplace(settings_.rect(), Filter(settings_.filter, settings_.filter_width),
-                passes_.layers().count());
+                passes_.layers().count(), settings_.adaptive());
   if (settings_.data.any()) {
     data_film_.emplace(settings_.rect(), settings_.data);
   }
@@ -50,8 +54,9 @@ RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings 
 // A system that promises more than it has would end the process later, and Blender with it.
 void RenderSession::check_memory() const {
   const size_t most = physical_memory();
-  const size_t needed = Film::bytes(settings_.rect(), passes_.layers().count()) +
-                        DataFilm::bytes(settings_.rect(), settings_.data);
+  const size_t needed =
+      Film::bytes(settings_.rect(), passes_.layers().count(), settings_.adaptive()) +
+      DataFilm::bytes(settings_.rect(), settings_.data);
   if (most > 0 && needed > most / 10 * 9) {
     const auto gigabytes = [](size_t bytes) { return std::to_string((bytes >> 30) + 1) + " GB"; };
     throw SceneError("settings", "passes",
@@ -199,6 +204,12 @@ void RenderSession::run() {
     // Stop where the next whole pass would overshoot the limit by more than half of itself.
     const double per_pass = statistics_.seconds / (pass + 1);
     if (settings_.seconds > 0.0 && statistics_.seconds + 0.5 * per_pass > settings_.seconds) {
+      break;
+    }
+    if (settings_.adaptive() && pass + 1 >= settings_.least_samples() &&
+        (pass + 1) % kAdaptiveStep == 0 &&
+        film_->stop_converged(kThresholdScale * settings_.noise_threshold,
+                              settings_.film_exposure) == 0) {
       break;
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/session/settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -9,6 +10,12 @@
 #include "janus/util/error.h"
 
 namespace janus {
+
+int RenderSettings::least_samples() const {
+  constexpr int kLeast = 4;
+  const float by_threshold = std::ceil(16.0f / std::pow(noise_threshold, 0.3f));
+  return std::max(kLeast, min_samples > 0 ? min_samples : static_cast<int>(by_threshold));
+}
 
 void RenderSettings::validate() const {
   const auto require = [](bool ok, const char* name, const char* message) {
@@ -25,6 +32,9 @@ void RenderSettings::validate() const {
             "crop", "must be a part of the frame that is not empty");
   }
   require(samples >= 1, "samples", "must be at least 1");
+  require(std::isfinite(noise_threshold) && noise_threshold >= 0.0f, "noise_threshold",
+          "must be finite and at least 0");
+  require(min_samples >= 0, "min_samples", "must be at least 0");
   require(std::isfinite(seconds) && seconds >= 0.0, "seconds", "must be finite and at least 0");
   require(threads >= 0 && threads <= 1024, "threads", "must be from 0 to 1024");
   for (const auto& [value, name] : {std::pair(max_bounces, "max_bounces"),

@@ -27,7 +27,10 @@ struct RenderSettings {
   int width = 640, height = 360;  // full frame, pixels
   std::optional<FilmRect> crop;   // the part to render
   int samples = 64;               // passes
-  double seconds = 0.0;           // time limit; 0: none. The first pass always completes
+  // Adaptive sampling, as in Cycles: pixels with less noise take part in no more passes. 0: all do.
+  float noise_threshold = 0.0f;
+  int min_samples = 0;   // that a pixel gets before it may stop; 0: by the threshold
+  double seconds = 0.0;  // time limit; 0: none. The first pass always completes
   uint32_t seed = 0;
   int threads = 0;                 // 0: one per hardware thread
   int max_bounces = 12;            // as in Cycles: 0 is direct light only
@@ -62,6 +65,10 @@ struct RenderSettings {
   bool roulette = true;        // Russian roulette on walks and on contributions
   bool check_weights = false;  // debug: IntegratorSettings::check_weights
   size_t cache_bytes = size_t{256} << 20;
+
+  bool adaptive() const { return noise_threshold > 0.0f; }
+  // min_samples, or Cycles' number.
+  int least_samples() const;
 
   FilmRect rect() const { return crop.value_or(FilmRect{0, 0, width, height}); }
 

@@ -15,6 +15,8 @@ class RenderSettings:
         height: int = 360,
         crop: Sequence[int] | None = None,
         samples: int = 64,
+        noise_threshold: float = 0.0,
+        min_samples: int = 0,
         seconds: float = 0.0,
         seed: int = 0,
         threads: int = 0,
@@ -65,6 +67,12 @@ class RenderSettings:
     @property
     def crop(self) -> tuple[int, int, int, int] | None:
         """x0, y0, x1, y1 of the part to render, pixels from the bottom left; None: all."""
+    @property
+    def noise_threshold(self) -> float:
+        """Pixels with less noise, as Cycles measures it, stop early (a small bias); 0: none."""
+    @property
+    def min_samples(self) -> int:
+        """Samples that a pixel gets before it may stop; 0: a number by the threshold."""
     @property
     def samples(self) -> int:
         """Per pixel; one pass of the whole picture each."""
