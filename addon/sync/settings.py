@@ -122,10 +122,9 @@ def adaptive_settings(scene, prefix: str) -> dict:
     def shared(name):
         return cycles_settings.value(scene, name)
 
-    if not shared(f"use_{prefix}adaptive_sampling"):
-        return {}
+    adaptive = shared(f"use_{prefix}adaptive_sampling")
     return {
-        "noise_threshold": shared(f"{prefix}adaptive_threshold"),
+        "noise_threshold": shared(f"{prefix}adaptive_threshold") if adaptive else 0.0,
         "min_samples": shared(f"{prefix}adaptive_min_samples"),
     }
 

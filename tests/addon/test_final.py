@@ -78,6 +78,8 @@ def test_settings_reach_the_core(scene, fake_core):
     assert vars(fake_core.settings) == {
         "data_passes": [],
         "occlusion_distance": 0.0,
+        "noise_threshold": 0.0,
+        "min_samples": 0,
         "cryptomatte": [],
         "cryptomatte_levels": 3,
         "pass_alpha_threshold": 0.5,

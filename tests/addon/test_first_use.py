@@ -17,6 +17,9 @@ OWN = {
     "film_transparent_glass": True,
     "film_transparent_roughness": 0.25,
     "samples": 3,
+    "use_adaptive_sampling": True,
+    "adaptive_threshold": 0.25,
+    "adaptive_min_samples": 9,
     "time_limit": 60.0,
     "use_denoising": True,
     "denoising_quality": "FAST",
@@ -25,18 +28,24 @@ OWN = {
 }
 OF_VIEWPORTS = {
     "preview_samples": 77,
+    "use_preview_adaptive_sampling": True,
+    "preview_adaptive_threshold": 0.5,
+    "preview_adaptive_min_samples": 21,
     "use_preview_denoising": True,
     "preview_denoising_start_sample": 3,
     "preview_denoising_input_passes": "RGB_ALBEDO_NORMAL",
     "preview_denoising_prefilter": "ACCURATE",
     "preview_denoising_quality": "FAST",
 }
-NOT_FOR_THE_CORE = {name for name in OWN if "denoising" in name}  # see test_denoised_render.py
+# See test_denoised_render.py and test_adaptive.py.
+NOT_FOR_THE_CORE = {name for name in OWN if "denoising" in name} | {"use_adaptive_sampling"}
 CORE_NAMES = {
     "diffuse_bounces": "max_diffuse_bounces",
     "glossy_bounces": "max_glossy_bounces",
     "transmission_bounces": "max_transmission_bounces",
     "pixel_filter_type": "filter",
+    "adaptive_threshold": "noise_threshold",
+    "adaptive_min_samples": "min_samples",
     "time_limit": "seconds",
 }
 

@@ -54,7 +54,7 @@ def test_a_preset_of_ones_own_comes_back(scene, kind, tmp_path, monkeypatch):
         if prop.type == "ENUM":
             changed[name] = prop.enum_items[0].identifier
         else:
-            changed[name] = not prop.default if prop.type == "BOOLEAN" else 3
+            changed[name] = not prop.default if prop.type == "BOOLEAN" else 1
         setattr(janus, name, changed[name])
     add = getattr(bpy.ops.janus, f"{kind}_preset_add")
     assert add(name="Mine") == {"FINISHED"}
