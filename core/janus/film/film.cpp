@@ -22,7 +22,8 @@ Film::Film(FilmRect rect, Filter filter, size_t layers, bool adaptive)
       half_(adaptive ? rect.pixels() : 0, glm::dvec3(0.0)),
       counts_(half_.size(), 0),
       converged_(half_.size(), 0),
-      stopped_(half_.size(), 0) {}
+      stopped_(half_.size(), 0),
+      active_pixels_(rect.pixels()) {}
 
 void Film::begin_pass() {
   std::fill(pass_.begin(), pass_.end(), vec4(0.0f));
@@ -113,9 +114,9 @@ bool Film::converged(size_t index, float threshold, float exposure) const {
   return off.x + off.y + off.z < threshold * (1e-4 + norm);
 }
 
-size_t Film::stop_converged(float threshold, float exposure) {
+void Film::stop_converged(float threshold, float exposure) {
   if (counts_.empty()) {
-    return rect_.pixels();
+    return;
   }
   const int w = rect_.width(), h = rect_.height();
   for (size_t i = 0; i < counts_.size(); ++i) {
@@ -123,7 +124,7 @@ size_t Film::stop_converged(float threshold, float exposure) {
       converged_[i] = converged(i, threshold, exposure);
     }
   }
-  size_t going_on = 0;
+  active_pixels_ = 0;
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
       bool all = true;
@@ -133,10 +134,9 @@ size_t Film::stop_converged(float threshold, float exposure) {
         }
       }
       stopped_[static_cast<size_t>(y) * w + x] = all;
-      going_on += all ? 0 : 1;
+      active_pixels_ += all ? 0 : 1;
     }
   }
-  return going_on;
 }
 
 Image Film::develop(float exposure) const {

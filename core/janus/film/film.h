@@ -97,12 +97,13 @@ class Film {
 
   // Does the pixel take part in the next pass?
   bool active(size_t index) const { return stopped_.empty() || !stopped_[index]; }
+  // How many do.
+  size_t active_pixels() const { return active_pixels_; }
 
   // Between passes, of an adaptive film: stops pixels that are good enough, and whose neighbours
   // are. The measure is Cycles': how far the mean is from that of every second pass, relative to
-  // the root of the brightness (where it is bright, to the brightness), with `exposure`. Returns
-  // how many pixels go on.
-  size_t stop_converged(float threshold, float exposure);
+  // the root of the brightness (where it is bright, to the brightness), with `exposure`.
+  void stop_converged(float threshold, float exposure);
 
   // The mean of a pixel over the passes (at least one).
   Rgb mean(size_t index) const { return Rgb(sum_[index] / passes_of(index)); }
@@ -138,6 +139,7 @@ class Film {
   std::vector<glm::dvec3> half_;
   std::vector<uint32_t> counts_;
   std::vector<uint8_t> converged_, stopped_;
+  size_t active_pixels_;
 };
 
 }  // namespace janus

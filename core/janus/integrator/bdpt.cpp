@@ -50,6 +50,9 @@ class Bdpt final : public BidirectionalIntegrator {
     if (only_traces_paths()) {
       return;
     }
+    if (pixels_ != context_.film.active_pixels()) {
+      set_effort(effort_);
+    }
     if (settings_.contribution_roulette && !plain()) {
       roulette_.update(context_.film, pass);
     }
@@ -140,6 +143,7 @@ class Bdpt final : public BidirectionalIntegrator {
 
   void set_effort(const Effort& effort) {
     effort_ = effort;
+    pixels_ = context_.film.active_pixels();
     // A wave without light paths would leave its pixels without connections.
     light_paths_ = light_path_count(effort.light_paths);
     if (light_paths_ > 0) {
@@ -336,7 +340,7 @@ class Bdpt final : public BidirectionalIntegrator {
 
   Effort effort_;
   std::unique_ptr<Integrator> path_tracer_;  // for passes without light paths
-  size_t light_paths_ = 0;                   // of a pass
+  size_t pixels_ = 0, light_paths_ = 0;      // of a pass
   uint64_t first_light_path_ = 0;            // of the pass, among all
   CachedPath cached_path_;
   size_t parts_ = 1;                     // of each wave, so that the cache stays small

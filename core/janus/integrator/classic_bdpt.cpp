@@ -13,9 +13,12 @@ namespace {
 class ClassicBdpt final : public BidirectionalIntegrator {
  public:
   ClassicBdpt(const RenderContext& context, const IntegratorSettings& settings)
-      : BidirectionalIntegrator(context, settings), light_paths_(light_path_count(1.0f)) {
+      : BidirectionalIntegrator(context, settings) {}
+
+  void begin_pass(int) override {
     // Of a path with k edges, each pair of subpaths tries every strategy once. Only those with one
     // camera vertex (t=1) may fall on any pixel: all light paths of the pass try them.
+    light_paths_ = light_path_count(1.0f);
     if (light_paths_ > 0) {
       counts_.connection = 1.0f;
       counts_.splat = static_cast<float>(light_paths_);
@@ -37,7 +40,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
     splats_.add_to(context_.film, context_.pool);
   }
 
-  Effort effort() const override { return {light_paths_ > 0 ? 1.0f : 0.0f, 1.0f}; }
+  Effort effort() const override { return {light_path_count(1.0f) > 0 ? 1.0f : 0.0f, 1.0f}; }
 
  private:
   // The light path of pixel `index`: splats each vertex and keeps it.
@@ -45,7 +48,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
                         Counters& counters) {
     const float margin = context_.film.filter().radius();
     Sampler sampler(settings_.seed, Stream::Light, 0,
-                    static_cast<uint64_t>(pass) * light_paths_ + index);
+                    static_cast<uint64_t>(pass) * context_.film.rect().pixels() + index);
     trace_light_subpath(context_.scene(), mis_, settings_.walk, sampler, counters,
                         [&](const PathVertex& v, Sampler& walk) {
                           splat(v, counts_.splat, roulettes_, margin, walk, row, counters,
@@ -79,7 +82,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
     context_.film.add_sample(index, sample.sum, alpha);
   }
 
-  size_t light_paths_;           // of a pass: one per pixel
+  size_t light_paths_ = 0;       // of a pass: one per pixel
   const RouletteMap roulettes_;  // without a picture: none
 };
 

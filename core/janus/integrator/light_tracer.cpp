@@ -17,18 +17,22 @@ class LightTracer final : public PassIntegrator {
  public:
   using PassIntegrator::PassIntegrator;
 
+  void begin_pass(int) override { light_paths_ = light_path_count(settings_.light_paths); }
   void render_wave(const Wave& wave) override {
     trace_lights(wave);
     trace_directly_visible(wave);
   }
+  void end_pass() override { first_light_path_ += light_paths_; }
 
  private:
   // Weights are not used: every path has one technique here.
   const Mis mis_{Heuristic::Balance, SampleCounts{}};
   Splats splats_;
+  size_t light_paths_ = 0;         // of the pass
+  uint64_t first_light_path_ = 0;  // of the pass, among all
 
   void trace_lights(const Wave& wave) {
-    const size_t count = light_path_count(settings_.light_paths);  // of the pass
+    const size_t count = light_paths_;
     const size_t begin = wave.begin(count), end = wave.end(count);
     const float margin = context_.film.filter().radius();
     const size_t blocks = (end - begin + kLightBlock - 1) / kLightBlock;
@@ -45,8 +49,7 @@ class LightTracer final : public PassIntegrator {
       };
       const size_t block_begin = begin + block * kLightBlock;
       for (size_t i = block_begin; i < std::min(end, block_begin + kLightBlock); ++i) {
-        Sampler sampler(settings_.seed, Stream::Light, 0,
-                        static_cast<uint64_t>(wave.pass) * count + i);
+        Sampler sampler(settings_.seed, Stream::Light, 0, first_light_path_ + i);
         if (settings_.next_event) {
           trace_light_subpath(context_.scene(), mis_, settings_.walk, sampler, counters,
                               [&](const PathVertex& v, Sampler& walk) {

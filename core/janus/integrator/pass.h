@@ -30,9 +30,10 @@ class PassIntegrator : public Integrator {
     counters_ += counters;
   }
 
+  // Of a pass: for each pixel that takes part in it.
   size_t light_path_count(float per_pixel) const {
     return context_.scene().light_sampler.emits()
-               ? static_cast<size_t>(per_pixel * context_.film.rect().pixels() + 0.5)
+               ? static_cast<size_t>(per_pixel * context_.film.active_pixels() + 0.5)
                : 0;
   }
 

@@ -207,10 +207,11 @@ void RenderSession::run() {
       break;
     }
     if (settings_.adaptive() && pass + 1 >= settings_.least_samples() &&
-        (pass + 1) % kAdaptiveStep == 0 &&
-        film_->stop_converged(kThresholdScale * settings_.noise_threshold,
-                              settings_.film_exposure) == 0) {
-      break;
+        (pass + 1) % kAdaptiveStep == 0) {
+      film_->stop_converged(kThresholdScale * settings_.noise_threshold, settings_.film_exposure);
+      if (film_->active_pixels() == 0) {
+        break;
+      }
     }
   }
 }

@@ -40,10 +40,12 @@ TEST_F(AdaptiveFilm, StopsPixelsWithoutNoise) {
     pass(0.5f);
   }
   // The left half but for the column beside the noise.
-  EXPECT_EQ(film.stop_converged(0.05f, 1.0f), 4u * 7);
+  film.stop_converged(0.05f, 1.0f);
+  EXPECT_EQ(film.active_pixels(), 4u * 7);
   EXPECT_FALSE(film.active(0));
   EXPECT_TRUE(film.active(5) && film.active(11));
-  EXPECT_EQ(film.stop_converged(5.0f, 1.0f), 0u);
+  film.stop_converged(5.0f, 1.0f);
+  EXPECT_EQ(film.active_pixels(), 0u);
 }
 
 // What a pixel gets after it has stopped does not count, and what it has is divided by its passes.
@@ -72,14 +74,18 @@ TEST_F(AdaptiveFilm, GoesOnBesideNoise) {
   for (int i = 0; i < 4; ++i) {
     pass(0.001f);
   }
-  EXPECT_EQ(film.stop_converged(0.0005f, 1.0f), 4u * 7);
-  EXPECT_EQ(film.stop_converged(1.0f, 1.0f), 0u);
-  EXPECT_EQ(film.stop_converged(1e-9f, 1.0f), 0u);  // those that have stopped have nothing new
+  film.stop_converged(0.0005f, 1.0f);
+  EXPECT_EQ(film.active_pixels(), 4u * 7);
+  film.stop_converged(1.0f, 1.0f);
+  EXPECT_EQ(film.active_pixels(), 0u);
+  film.stop_converged(1e-9f, 1.0f);
+  EXPECT_EQ(film.active_pixels(), 0u);  // those that have stopped have nothing new
 }
 
 TEST(Film, StopsNothingUnlessAsked) {
   Film film({0, 0, 2, 2}, Filter(FilterType::Box, 1.0f));
-  EXPECT_EQ(film.stop_converged(1.0f, 1.0f), 4u);
+  film.stop_converged(1.0f, 1.0f);
+  EXPECT_EQ(film.active_pixels(), 4u);
   EXPECT_TRUE(film.active(0));
 }
 

@@ -5,9 +5,36 @@ from __future__ import annotations
 
 from mistake import Edit, Mistake, one
 
-from mistakes.sources import BDPT, CAMERAS, FILM, PICTURES
+from mistakes.sources import ADAPTIVE, BDPT, CAMERAS, FILM, PICTURES
 
 FILM_AND_SAMPLES = (
+    one(
+        "stopped-pixels-take-splats",
+        0,
+        "a pixel that has stopped goes on to take what light paths bring",
+        ADAPTIVE,
+        FILM,
+        "const bool adds = active(i);",
+        "const bool adds = true;",
+    ),
+    one(
+        "mean-over-all-passes",
+        0,
+        "a pixel that has stopped is divided by the passes that it missed",
+        ADAPTIVE,
+        FILM,
+        "factor * sum_[i][c] / passes_of(i)",
+        "factor * sum_[i][c] / passes_",
+    ),
+    one(
+        "light-paths-of-stopped-pixels",
+        0,
+        "classic bdpt counts the light paths of pixels that have none",
+        ADAPTIVE,
+        "core/janus/integrator/classic_bdpt.cpp",
+        "counts_.splat = static_cast<float>(light_paths_);",
+        "counts_.splat = static_cast<float>(context_.film.rect().pixels());",
+    ),
     one(
         "box-filter-for-splats",
         10,
