@@ -169,9 +169,9 @@ PATHS = (
         0,
         "a light without shadows casts them on those who find it by chance",
         RAY_TYPES,
-        FLIGHT_APART,
-        "shadows.through(scene.lights[index]->shadow_ray);",
-        "shadows.through(RayType::Shadow);",
+        "core/janus/render/shadows_ahead.h",
+        "if (contains(visibility, type)) {",
+        "if (true || contains(visibility, type)) {",
     ),
     one(
         "limit-of-a-light-not-for-splats",
