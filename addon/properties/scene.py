@@ -67,6 +67,40 @@ def _check_strategies(self, _context):
     self.strategies_message = check("check_strategies", self.strategies)
 
 
+# Of renders and of viewports.
+
+
+def _adaptive_sampling(name: str):
+    return BoolProperty(
+        name=name,
+        description="Stop pixels that have little noise before the others, which is a small bias",
+        default=False,
+    )
+
+
+def _noise_threshold(name: str, default: float):
+    return FloatProperty(
+        name=name,
+        description="Noise at which pixels stop, as Cycles measures it: lower values are slower "
+        "and cleaner",
+        min=1e-5,
+        max=1.0,
+        soft_min=0.001,
+        default=default,
+        precision=4,
+    )
+
+
+def _min_samples(name: str):
+    return IntProperty(
+        name=name,
+        description="Samples that each pixel gets at least; 0 is a number by the threshold",
+        min=0,
+        max=4096,
+        default=0,
+    )
+
+
 @heard
 class JanusSceneSettings(bpy.types.PropertyGroup):
     """Render settings of Janus"""
@@ -79,28 +113,9 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         soft_max=1 << 16,
         default=64,
     )
-    use_adaptive_sampling: BoolProperty(
-        name="Use Adaptive Sampling",
-        description="Stop pixels that have little noise before the others, which is a small bias",
-        default=False,
-    )
-    adaptive_threshold: FloatProperty(
-        name="Noise Threshold",
-        description="Noise at which pixels stop, as Cycles measures it: lower values are slower "
-        "and cleaner",
-        min=1e-5,
-        max=1.0,
-        soft_min=0.001,
-        default=0.01,
-        precision=4,
-    )
-    adaptive_min_samples: IntProperty(
-        name="Min Samples",
-        description="Samples that each pixel gets at least; 0 is a number by the threshold",
-        min=0,
-        max=4096,
-        default=0,
-    )
+    use_adaptive_sampling: _adaptive_sampling("Use Adaptive Sampling")
+    adaptive_threshold: _noise_threshold("Noise Threshold", 0.01)
+    adaptive_min_samples: _min_samples("Min Samples")
     preview_samples: IntProperty(
         name="Viewport Samples",
         description="Number of samples to render in the viewport, unlimited if 0",
@@ -109,28 +124,9 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         soft_max=1 << 16,
         default=1024,
     )
-    use_preview_adaptive_sampling: BoolProperty(
-        name="Use Viewport Adaptive Sampling",
-        description="Stop pixels that have little noise before the others, which is a small bias",
-        default=False,
-    )
-    preview_adaptive_threshold: FloatProperty(
-        name="Viewport Noise Threshold",
-        description="Noise at which pixels stop, as Cycles measures it: lower values are slower "
-        "and cleaner",
-        min=1e-5,
-        max=1.0,
-        soft_min=0.001,
-        default=0.1,
-        precision=4,
-    )
-    preview_adaptive_min_samples: IntProperty(
-        name="Viewport Min Samples",
-        description="Samples that each pixel gets at least; 0 is a number by the threshold",
-        min=0,
-        max=4096,
-        default=0,
-    )
+    use_preview_adaptive_sampling: _adaptive_sampling("Use Viewport Adaptive Sampling")
+    preview_adaptive_threshold: _noise_threshold("Viewport Noise Threshold", 0.1)
+    preview_adaptive_min_samples: _min_samples("Viewport Min Samples")
     time_limit: FloatProperty(
         name="Time Limit",
         description="Limit the render time, without set-up (0 disables the limit)",

@@ -8,6 +8,8 @@ it to no script.
 
 from dataclasses import dataclass, field
 
+import bpy
+
 # Of sets of lights; of the core.
 MOST = {"receiver": 63, "blocker": 24}
 
@@ -35,9 +37,10 @@ class Linking:
 
     def __init__(self, depsgraph, log):
         self._sets = {kind: {} for kind in MOST}  # addresses of collections -> _Set
-        for obj in depsgraph.scene.objects:
+        # Those of the scene are not all: some are shown by instances alone.
+        for obj in (item for item in depsgraph.ids if isinstance(item, bpy.types.Object)):
             for kind, sets in self._sets.items():
-                collection = getattr(obj.light_linking, f"{kind}_collection")
+                collection = getattr(obj.original.light_linking, f"{kind}_collection")
                 if collection is None or collection.as_pointer() in sets:
                     continue
                 if len(sets) == MOST[kind]:

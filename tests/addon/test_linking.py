@@ -87,6 +87,21 @@ def test_children_and_instances(scene, export):
     assert found(export(), "Lone") == {"unlit_by": [0]}
 
 
+def test_lamps_that_are_shown_by_instances_alone(scene, export):
+    square, lamp = add_square(), add_light("POINT", "Lamp")
+    add_square("Other")
+    scene.collection.objects.unlink(lamp)
+    things = bpy.data.collections.new("Things")
+    things.objects.link(lamp)
+    empty = bpy.data.objects.new("Empty", None)
+    scene.collection.objects.link(empty)
+    empty.instance_type, empty.instance_collection = "COLLECTION", things
+    link(lamp, "receiver", [square])
+    recorder = export()
+    assert found(recorder, "Lamp") == {"receiver_set": 0}
+    assert found(recorder, "Square") == {} and found(recorder, "Other") == {"unlit_by": [0]}
+
+
 @pytest.mark.parametrize("kind, most", [("receiver", 63), ("blocker", 24)])
 def test_too_many_sets_are_said(scene, export, kind, most):
     square = add_square()
