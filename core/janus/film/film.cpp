@@ -2,6 +2,7 @@
 #include "janus/film/film.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace janus {
@@ -114,29 +115,32 @@ bool Film::converged(size_t index, float threshold, float exposure) const {
   return off.x + off.y + off.z < threshold * (1e-4 + norm);
 }
 
-void Film::stop_converged(float threshold, float exposure) {
+void Film::stop_converged(float threshold, float exposure, ThreadPool& pool) {
   if (counts_.empty()) {
     return;
   }
-  const int w = rect_.width(), h = rect_.height();
-  for (size_t i = 0; i < counts_.size(); ++i) {
-    if (active(i)) {
-      converged_[i] = converged(i, threshold, exposure);
+  const size_t w = rect_.width(), h = rect_.height();
+  pool.parallel_for(h, [&](size_t y) {
+    for (size_t i = y * w; i < (y + 1) * w; ++i) {
+      if (active(i)) {
+        converged_[i] = converged(i, threshold, exposure);
+      }
     }
-  }
-  active_pixels_ = 0;
-  for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) {
+  });
+  std::vector<size_t> going_on(h, 0);  // by row
+  pool.parallel_for(h, [&](size_t y) {
+    for (size_t x = 0; x < w; ++x) {
       bool all = true;
-      for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, h - 1); ++ny) {
-        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, w - 1); ++nx) {
-          all = all && converged_[static_cast<size_t>(ny) * w + nx];
+      for (size_t ny = std::max<size_t>(y, 1) - 1; ny < std::min(y + 2, h); ++ny) {
+        for (size_t nx = std::max<size_t>(x, 1) - 1; nx < std::min(x + 2, w); ++nx) {
+          all = all && converged_[ny * w + nx];
         }
       }
-      stopped_[static_cast<size_t>(y) * w + x] = all;
-      active_pixels_ += all ? 0 : 1;
+      stopped_[y * w + x] = all;
+      going_on[y] += all ? 0 : 1;
     }
-  }
+  });
+  active_pixels_ = std::accumulate(going_on.begin(), going_on.end(), size_t{0});
 }
 
 Image Film::develop(float exposure) const {

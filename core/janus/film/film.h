@@ -103,7 +103,7 @@ class Film {
   // Between passes, of an adaptive film: stops pixels that are good enough, and whose neighbours
   // are. The measure is Cycles': how far the mean is from that of every second pass, relative to
   // the root of the brightness (where it is bright, to the brightness), with `exposure`.
-  void stop_converged(float threshold, float exposure);
+  void stop_converged(float threshold, float exposure, ThreadPool& pool);
 
   // The mean of a pixel over the passes (at least one).
   Rgb mean(size_t index) const { return Rgb(sum_[index] / passes_of(index)); }

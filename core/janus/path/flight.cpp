@@ -3,19 +3,18 @@
 
 #include <algorithm>
 
+#include "janus/render/onlookers.h"
 #include "janus/render/shadows_ahead.h"
 
 namespace janus {
 
 namespace {
 
-constexpr size_t kLooks = 8;  // that an instance has for different rays, at most
-
 // What is where a light walk meets a surface: one instance, or copies of it for different rays.
 struct Place {
-  Rgb transparency = Rgb(1.0f);  // for the segment that leads there
-  bool blocks = false;           // does it count as a crossing?
-  float albedo[kLooks] = {};     // of the copies that the walk may end at
+  Rgb transparency = Rgb(1.0f);         // for the segment that leads there
+  bool blocks = false;                  // does it count as a crossing?
+  float albedo[std::size(kRays)] = {};  // of the copies that the walk may end at
   float sum = 0.0f;
 };
 

@@ -13,8 +13,9 @@ namespace {
 // Times of a pass. More of them make noise of what would be separate images of one thing; each
 // costs what at_time() does.
 constexpr size_t kMostTimes = 16, kFewestTimes = 4;
-// A path takes about ten times as long as a triangle or an instance of at_time().
-constexpr size_t kWorkPerPixel = 1;
+// For each unit of slice_work(): so that it takes about a tenth of a pass. In a plain scene, a
+// pixel's paths take about twice as long as such a unit.
+constexpr size_t kPixels = 5;
 
 }  // namespace
 
@@ -28,16 +29,16 @@ Exposure::Exposure(std::shared_ptr<const Scene> scene, int width, int height, si
   if (!blurs || !moves(*timeless_)) {
     return;
   }
-  times_ = std::clamp(kWorkPerPixel * pixels / std::max<size_t>(1, slice_work(*timeless_)),
-                      kFewestTimes, kMostTimes);
+  times_ = std::clamp(pixels / std::max<size_t>(1, kPixels * slice_work(*timeless_)), kFewestTimes,
+                      kMostTimes);
   shift_ = static_cast<float>(hash32(seed) >> 8) * 0x1p-24f;
   float sum = 0.0f;
   for (const float open : timeless_->camera.shutter) {
-    closed_until_.push_back(sum);
+    let_through_.push_back(sum);
     sum += open;
   }
-  closed_until_.push_back(sum);
-  for (float& share : closed_until_) {
+  let_through_.push_back(sum);
+  for (float& share : let_through_) {
     share /= sum;
   }
 }
@@ -53,14 +54,14 @@ float Exposure::time(int pass, size_t wave) const {
 }
 
 float Exposure::through_shutter(float u) const {
-  if (closed_until_.size() < 2) {
+  if (let_through_.size() < 2) {
     return u;
   }
-  const auto after = std::upper_bound(closed_until_.begin() + 1, closed_until_.end() - 1, u);
+  const auto after = std::upper_bound(let_through_.begin() + 1, let_through_.end() - 1, u);
   const float from = *(after - 1), to = *after;
   const float share = to > from ? std::clamp((u - from) / (to - from), 0.0f, 1.0f) : 0.5f;
-  const auto step = static_cast<float>(after - 1 - closed_until_.begin());
-  return (step + share) / static_cast<float>(closed_until_.size() - 1);
+  const auto step = static_cast<float>(after - 1 - let_through_.begin());
+  return (step + share) / static_cast<float>(let_through_.size() - 1);
 }
 
 void Exposure::open(int pass, size_t wave, const CancelToken& cancel) {

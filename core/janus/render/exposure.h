@@ -43,8 +43,8 @@ class Exposure {
   std::unique_ptr<Camera> camera_;
   int width_, height_;
   size_t times_ = 1;
-  float shift_ = 0.0f;               // of all times, by the seed
-  std::vector<float> closed_until_;  // by even times: what share of the light has come through
+  float shift_ = 0.0f;              // of all times, by the seed
+  std::vector<float> let_through_;  // by even times: the share of the light until then
 };
 
 }  // namespace janus

@@ -208,7 +208,8 @@ void RenderSession::run() {
     }
     if (settings_.adaptive() && pass + 1 >= settings_.least_samples() &&
         (pass + 1) % kAdaptiveStep == 0) {
-      film_->stop_converged(kThresholdScale * settings_.noise_threshold, settings_.film_exposure);
+      film_->stop_converged(kThresholdScale * settings_.noise_threshold, settings_.film_exposure,
+                            pool);
       if (film_->active_pixels() == 0) {
         break;
       }

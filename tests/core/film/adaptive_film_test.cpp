@@ -40,11 +40,11 @@ TEST_F(AdaptiveFilm, StopsPixelsWithoutNoise) {
     pass(0.5f);
   }
   // The left half but for the column beside the noise.
-  film.stop_converged(0.05f, 1.0f);
+  film.stop_converged(0.05f, 1.0f, pool);
   EXPECT_EQ(film.active_pixels(), 4u * 7);
   EXPECT_FALSE(film.active(0));
   EXPECT_TRUE(film.active(5) && film.active(11));
-  film.stop_converged(5.0f, 1.0f);
+  film.stop_converged(5.0f, 1.0f, pool);
   EXPECT_EQ(film.active_pixels(), 0u);
 }
 
@@ -54,7 +54,7 @@ TEST_F(AdaptiveFilm, LeavesThemAlone) {
     pass(0.5f);
   }
   const Image before = film.develop();
-  film.stop_converged(0.05f, 1.0f);
+  film.stop_converged(0.05f, 1.0f, pool);
   for (int i = 0; i < 4; ++i) {
     pass(0.25f);
   }
@@ -74,17 +74,18 @@ TEST_F(AdaptiveFilm, GoesOnBesideNoise) {
   for (int i = 0; i < 4; ++i) {
     pass(0.001f);
   }
-  film.stop_converged(0.0005f, 1.0f);
+  film.stop_converged(0.0005f, 1.0f, pool);
   EXPECT_EQ(film.active_pixels(), 4u * 7);
-  film.stop_converged(1.0f, 1.0f);
+  film.stop_converged(1.0f, 1.0f, pool);
   EXPECT_EQ(film.active_pixels(), 0u);
-  film.stop_converged(1e-9f, 1.0f);
+  film.stop_converged(1e-9f, 1.0f, pool);
   EXPECT_EQ(film.active_pixels(), 0u);  // those that have stopped have nothing new
 }
 
 TEST(Film, StopsNothingUnlessAsked) {
+  ThreadPool pool(1);
   Film film({0, 0, 2, 2}, Filter(FilterType::Box, 1.0f));
-  film.stop_converged(1.0f, 1.0f);
+  film.stop_converged(1.0f, 1.0f, pool);
   EXPECT_EQ(film.active_pixels(), 4u);
   EXPECT_TRUE(film.active(0));
 }

@@ -195,7 +195,7 @@ TEST(Exposure, HasOneTimeWhereNothingMoves) {
   EXPECT_EQ(frozen.times(), 1u);
   frozen.open(0, 0, {});
   EXPECT_EQ(&frozen.scene(), moving.get());
-  EXPECT_EQ(Exposure(moving, 8, 8, 64, true, 0).times(), 16u);
+  EXPECT_EQ(Exposure(moving, 8, 8, 80, true, 0).times(), 16u);
 }
 
 // Where there is much to build for each time, there are fewer of them.
@@ -204,8 +204,8 @@ TEST(Exposure, HasFewerTimesOfLargeMeshes) {
   mesh.motion = {{mesh.positions, {}}, {mesh.positions, {}}};
   const size_t triangles = mesh.triangles.size();
   const auto scene = SceneKit().add("ball", mesh, {}).build();
-  EXPECT_EQ(Exposure(scene, 64, 64, 40 * triangles, true, 0).times(), 16u);
-  EXPECT_EQ(Exposure(scene, 64, 64, 10 * triangles, true, 0).times(), 9u);
+  EXPECT_EQ(Exposure(scene, 64, 64, 100 * triangles, true, 0).times(), 16u);
+  EXPECT_EQ(Exposure(scene, 64, 64, 50 * triangles, true, 0).times(), 9u);
   EXPECT_EQ(Exposure(scene, 64, 64, triangles, true, 0).times(), 4u);
 }
 

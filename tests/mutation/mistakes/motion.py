@@ -35,8 +35,8 @@ MOTION_AND_LINKING = (
         "times are as likely when the shutter is nearly closed",
         MOTION,
         EXPOSURE,
-        "if (closed_until_.size() < 2) {",
-        "if (true || closed_until_.size() < 2) {",
+        "if (let_through_.size() < 2) {",
+        "if (true || let_through_.size() < 2) {",
     ),
     one(
         "normals-of-another-time",
