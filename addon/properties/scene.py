@@ -73,7 +73,8 @@ def _check_strategies(self, _context):
 def _adaptive_sampling(name: str):
     return BoolProperty(
         name=name,
-        description="Stop pixels that have little noise before the others, which is a small bias",
+        description="Stop pixels that have little noise before the others. That is quicker, but "
+        "light that comes seldom may be missed: a bias, which grows with the threshold",
         default=False,
     )
 

@@ -55,7 +55,8 @@ struct LayerSplat {
 //
 // Pixels may stop when they are good enough (adaptive sampling): they take part in no more passes,
 // with neither samples nor splats, and are means over those that they took part in. As what stops
-// a pixel is what it has got, that is a bias, if a small one.
+// a pixel is what it has got, that is a bias: what comes seldom is missed where it has not come
+// yet.
 class Film {
  public:
   // `adaptive`: pixels may stop.
