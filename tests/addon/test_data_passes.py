@@ -119,6 +119,16 @@ def test_mist_is_the_worlds(scene, layer):
     assert part("sync.passes").data_arguments(scene, layer)["mist"] == (1.5, 4.0, 0.5)
 
 
+def test_what_occludes_is_as_near_as_the_world_says(scene, layer):
+    def distance():
+        return part("sync.passes").data_arguments(scene, layer)["occlusion_distance"]
+
+    assert distance() == 0.0  # however far
+    scene.world = bpy.data.worlds.new("Near")
+    scene.world.light_settings.distance = 2.5
+    assert distance() == 2.5
+
+
 def test_no_expression_may_have_the_name(scene, layer):
     item = layer.janus.expressions.add()
     for name in ("Depth", "Denoising Albedo", "CryptoObject00"):

@@ -34,6 +34,15 @@ def curves(action):
     return [curve for strip in strips for bag in strip.channelbags for curve in bag.fcurves]
 
 
+def bend(obj):
+    """A shape key lifts it."""
+    obj.shape_key_add(name="Basis")
+    up = obj.shape_key_add(name="Up")
+    for point in up.data:
+        point.co.z += 1.0
+    keys(up, "value", 0.0, 1.0, (9, 11))
+
+
 def places(transforms):
     return [round(float(x), 5) for x in transforms[:, 0, 3]]
 
@@ -82,11 +91,7 @@ def test_camera(scene, moving, export):
 
 
 def test_deforming_meshes(scene, moving, export):
-    moving.shape_key_add(name="Basis")
-    up = moving.shape_key_add(name="Up")
-    for point in up.data:
-        point.co.z += 1.0
-    keys(up, "value", 0.0, 1.0, (9, 11))
+    bend(moving)
     twin = bpy.data.objects.new("Twin", moving.data)
     scene.collection.objects.link(twin)
     recorder = export()
@@ -96,6 +101,22 @@ def test_deforming_meshes(scene, moving, export):
     assert motion["positions"][:, 0, 2].tolist() == pytest.approx([0.375, 0.5, 0.625])
     moving.cycles.use_deform_motion = twin.cycles.use_deform_motion = False
     assert not export().mesh_motion
+
+
+@pytest.mark.parametrize("setting", ["use_deform_motion", "use_motion_blur"])
+def test_who_instances_has_a_say(scene, moving, export, setting):
+    bend(moving)
+    things = bpy.data.collections.new("Things")
+    scene.collection.objects.unlink(moving)
+    things.objects.link(moving)
+    empty = bpy.data.objects.new("Empty", None)
+    scene.collection.objects.link(empty)
+    empty.instance_type, empty.instance_collection = "COLLECTION", things
+    assert export().mesh_motion
+    setattr(empty.cycles, setting, False)
+    recorder = export()
+    assert not recorder.mesh_motion
+    assert bool(recorder.instance_motion) == (setting == "use_deform_motion")
 
 
 def test_topology_that_changes_is_said(scene, moving, export):
