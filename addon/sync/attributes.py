@@ -56,7 +56,10 @@ def triangle_faces(mesh, count: int) -> np.ndarray:
     return faces
 
 
-def _named(mesh, name: str, log) -> dict | None:
+def named_attribute(mesh, name: str, log) -> dict | None:
+    """Its domain and values, of a mesh, curves or a point cloud; None: there is none of that name,
+    or of no kind that Cycles reads.
+    """
     attribute = mesh.attributes.get(name)
     if attribute is None or attribute.data_type not in FIELDS:
         return None
@@ -102,7 +105,7 @@ def _of_points(mesh, values: np.ndarray, kind: str) -> np.ndarray:
 
 
 def _uv(mesh, name: str, log) -> dict | None:
-    return _named(mesh, name or active_uv(mesh), log)
+    return named_attribute(mesh, name or active_uv(mesh), log)
 
 
 def active_uv(mesh) -> str:
@@ -114,18 +117,21 @@ def _color(mesh, _name: str, log) -> dict | None:
     index = mesh.color_attributes.render_color_index
     if not 0 <= index < len(mesh.color_attributes):
         return None
-    return _named(mesh, mesh.color_attributes[index].name, log)
+    return named_attribute(mesh, mesh.color_attributes[index].name, log)
 
 
 def _generated(mesh, _name: str, _log) -> dict:
     """Where a point lies in the texture space, from 0 to 1, before modifiers moved it."""
     values = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("undeformed_co", values)
+    return {"domain": "POINT", "values": in_texture_space(mesh, values.reshape(-1, 3))}
+
+
+def in_texture_space(mesh, positions: np.ndarray) -> np.ndarray:
     location = np.array(mesh.texspace_location, dtype=np.float32)
     size = np.array(mesh.texspace_size, dtype=np.float32)
     half = np.where(size != 0.0, 0.5 / np.where(size != 0.0, size, 1.0), 0.0)
-    generated = (values.reshape(-1, 3) - location) * half + 0.5
-    return {"domain": "POINT", "values": generated.astype(np.float32)}
+    return ((positions - location) * half + 0.5).astype(np.float32)
 
 
 def _normal(mesh, _name: str, _log) -> dict:
@@ -135,7 +141,7 @@ def _normal(mesh, _name: str, _log) -> dict:
 
 
 READERS = {
-    "attribute": _named,
+    "attribute": named_attribute,
     "uv": _uv,
     "color": _color,
     "generated": _generated,

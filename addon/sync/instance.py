@@ -3,13 +3,13 @@
 
 import numpy as np
 
+from .curves import curves_arrays, hair_systems, particle_hair, points_arrays
 from .light import sync_light
 from .linking import Linking
 from .mesh import mesh_arrays
 from .properties import OF_INSTANCE, OF_OBJECT, InstanceProperties, object_attributes
 from .visibility import (
     UNSUPPORTED_TYPES,
-    check_hair,
     check_object,
     light_group,
     surface_seen_by,
@@ -20,6 +20,7 @@ from .visibility import (
 MASK = 0xFFFFFFFF  # of 32 bits
 POLL_EVERY = 64  # instances of what is known
 SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
+HAIR = "hair"  # what grows on a surface: the part of an object that is no shape of its own
 
 
 class InstanceSync:
@@ -36,6 +37,12 @@ class InstanceSync:
         self._properties = InstanceProperties(log)
         self._kinds = {}  # addresses of an object, its data and who shows it -> arguments
         self._checked = set()  # addresses of objects
+        self._hairy = {}  # the same -> whether hair grows on it
+        self._senders = {
+            "MESH": self._send_mesh,
+            "CURVES": self._send_curves,
+            "POINTCLOUD": self._send_points,
+        }
         self._attributes = {}  # key of a mesh -> those that it was sent with
 
     def run(self, depsgraph, shown=None) -> None:
@@ -43,6 +50,8 @@ class InstanceSync:
         self._depsgraph = depsgraph
         self._view_layer = depsgraph.view_layer
         self._linking = Linking(depsgraph, self._log)
+        self._viewport = depsgraph.mode == "VIEWPORT"
+        self._strands = self._view_layer.use_strand
         # What passes read of meshes, whatever the materials.
         self._of_passes = frozenset(["uv:"] if self._view_layer.use_pass_uv else [])
         for number, instance in enumerate(depsgraph.object_instances):
@@ -53,10 +62,14 @@ class InstanceSync:
             if origin not in self._checked:
                 self._checked.add(origin)
                 self._check(obj)
-            if not instance.show_self or not (shown is None or shown(owner_of(instance).original)):
+            if not (shown is None or shown(owner_of(instance).original)):
                 continue
             kind = obj.type
-            if kind == "MESH":
+            if kind == "MESH" and instance.show_particles and self._grows_hair(obj, origin):
+                self._surface(instance, obj, origin, HAIR)
+            if not instance.show_self:
+                continue
+            if kind in ("MESH", "POINTCLOUD") or (kind == "CURVES" and self._strands):
                 self._surface(instance, obj, origin)
             elif kind == "LIGHT":
                 key = self._cache.place("light")
@@ -68,14 +81,20 @@ class InstanceSync:
             elif kind in UNSUPPORTED_TYPES:
                 self._log.warning(UNSUPPORTED_TYPES[kind], object=obj.name)
 
-    def _surface(self, instance, obj, origin: int) -> None:
+    def _grows_hair(self, obj, origin: int) -> bool:
+        if origin not in self._hairy:
+            # What nodes have made is not the object whose hair it would be.
+            self._hairy[origin] = self._strands and bool(hair_systems(obj, self._viewport))
+        return self._hairy[origin]
+
+    def _surface(self, instance, obj, origin: int, part: str = "") -> None:
         # Instances may be a million: what they have in common is read once, and what Blender makes
         # anew at each look (objects, matrices) is looked at once.
         owner = instance.parent if instance.is_instance else obj
-        kind = (origin, obj.data.as_pointer(), owner.as_pointer() if owner is not obj else 0)
+        kind = (origin, obj.data.as_pointer(), owner.as_pointer() if owner is not obj else 0, part)
         if kind not in self._kinds:
             self._poll()
-            self._kinds[kind] = self._arguments(instance)
+            self._kinds[kind] = self._arguments(instance, part)
         arguments, own_keys = self._kinds[kind]
         if arguments is None:
             return
@@ -89,9 +108,9 @@ class InstanceSync:
         if self._motion:
             mesh = arguments["mesh"]
             attributes = self._attributes[mesh]
-            self._motion.saw(instance, owner, key, mesh, attributes, self._depsgraph)
+            self._motion.saw(instance, owner, key, mesh, attributes, part, self._depsgraph)
 
-    def _arguments(self, instance) -> tuple[dict | None, list[str]]:
+    def _arguments(self, instance, part: str) -> tuple[dict | None, list[str]]:
         """Those of set_instance that all instances of a kind share (None: there are no faces), and
         the keys of the attributes that each has of its own.
         """
@@ -99,7 +118,7 @@ class InstanceSync:
         materials = self._materials.keys(obj)
         keys = self._materials.attributes(materials) | self._of_passes
         of_mesh = frozenset(key for key in keys if not key.startswith(OF_OBJECT + OF_INSTANCE))
-        mesh = self._mesh(obj, owner_of(instance), of_mesh)
+        mesh = self._shape(obj, owner_of(instance), of_mesh, part)
         if mesh is None:
             return None, []
         shared = {
@@ -117,19 +136,19 @@ class InstanceSync:
         }
         return shared, [key for key in keys if key.startswith(OF_INSTANCE)]
 
-    def _mesh(self, obj, owner, attributes: frozenset[str]) -> str | None:
+    def _shape(self, obj, owner, attributes: frozenset[str], part: str) -> str | None:
         """The key of the object's geometry, which is sent on first sight.
 
         Geometry goes by its evaluated mesh, which is shared by all who show it unchanged. Names
         would be wrong: instances made by Geometry Nodes carry the name of their maker.
         """
         identity = (obj.data.as_pointer(), attributes)
+        if part == HAIR:  # is the object's, whoever else has its mesh
+            identity = (obj.original.as_pointer(), attributes, part)
         sources = {item.original.as_pointer() for item in (obj, obj.data, owner)}
+        send = self._send_hair if part == HAIR else self._senders[obj.type]
         key = self._cache.mesh(
-            identity,
-            sources,
-            lambda key, log: self._send_mesh(key, obj, attributes, log),
-            self._log,
+            identity, sources, lambda key, log: send(key, obj, attributes, log), self._log
         )
         self._attributes[key] = attributes
         return key
@@ -144,9 +163,26 @@ class InstanceSync:
         finally:
             obj.to_mesh_clear()
 
+    def _send_curves(self, key: str, obj, attributes: frozenset[str], log) -> bool:
+        arrays = curves_arrays(obj.data, attributes, log)
+        if arrays is not None:
+            self._builder.set_curves(key, name=obj.data.name, **arrays)
+        return arrays is not None
+
+    def _send_points(self, key: str, obj, attributes: frozenset[str], log) -> bool:
+        arrays = points_arrays(obj.data, attributes, log)
+        if arrays is not None:
+            self._builder.set_points(key, name=obj.data.name, **arrays)
+        return arrays is not None
+
+    def _send_hair(self, key: str, obj, attributes: frozenset[str], _log) -> bool:
+        arrays = particle_hair(obj, self._viewport, attributes, len(obj.material_slots))
+        if arrays is not None:
+            self._builder.set_curves(key, name=obj.name, **arrays)
+        return arrays is not None
+
     def _check(self, obj) -> None:
         """Looks for unsupported settings."""
-        check_hair(obj, self._log)
         if obj.type in SURFACE_TYPES:
             check_object(obj, self._depsgraph.scene_eval, self._log)
 

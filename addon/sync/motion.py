@@ -6,8 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .camera import window, without_scale
+from .curves import curves_form, particle_form
 from .mesh import mesh_form
 
+PARTS = ("", "hair")  # of an object that instances show: its shape, and what grows on it
 MOST_STEPS = 7  # 129 times, as in Cycles
 CURVE_POINTS = 256
 
@@ -96,12 +98,13 @@ class MotionSync:
         self._meshes = set()  # keys of all that have been seen
         self.deformed = set()  # and of those that were sent with motion
 
-    def saw(self, instance, owner, key: str, mesh: str, attributes, depsgraph) -> None:
-        """An instance has been placed."""
+    def saw(self, instance, owner, key: str, mesh: str, attributes, part: str, depsgraph) -> None:
+        """An instance has been placed; `part`: of its object, "" the shape itself."""
         keys = keys_of(instance.object, owner, self._shutter)
         if keys < 2:
             return
-        identity = _identity(instance, owner)
+        identity = (*_identity(instance, owner), part)
+        self._viewport = depsgraph.mode == "VIEWPORT"
         self._objects[identity] = _Object(key, [None] * keys)
         if mesh not in self._meshes and deforms(instance, owner, self._shutter, depsgraph.scene):
             self._forms[identity] = _Form(mesh, instance.object.name, attributes, [None] * keys)
@@ -132,16 +135,31 @@ class MotionSync:
     def _look(self, depsgraph, number: int, most: int, poll) -> None:
         for instance in depsgraph.object_instances:
             poll()
-            if instance.object.type != "MESH":
+            if instance.object.type not in ("MESH", "CURVES", "POINTCLOUD"):
                 continue
             owner = instance.parent if instance.is_instance else instance.object
-            identity = _identity(instance, owner)
-            found = self._objects.get(identity)
-            if found is None or number % (stride := (most - 1) // (len(found.transforms) - 1)):
-                continue
-            found.transforms[number // stride] = np.array(instance.matrix_world, dtype=np.float64)
-            if form := self._forms.get(identity):
-                form.forms[number // stride] = _read(instance.object, form.attributes)
+            shown = _identity(instance, owner)
+            for part in PARTS:
+                identity = (*shown, part)
+                found = self._objects.get(identity)
+                if found is None or number % (stride := (most - 1) // (len(found.transforms) - 1)):
+                    continue
+                matrix = np.array(instance.matrix_world, dtype=np.float64)
+                found.transforms[number // stride] = matrix
+                if known := self._forms.get(identity):
+                    known.forms[number // stride] = self._read(
+                        instance.object, known.attributes, part
+                    )
+
+    def _read(self, obj, attributes, part: str):
+        if part:
+            return particle_form(obj, self._viewport)
+        if obj.type != "MESH":
+            return curves_form(obj.data)
+        try:
+            return mesh_form(obj.to_mesh(), attributes)
+        finally:
+            obj.to_mesh_clear()
 
     def _send(self, builder, poses) -> None:
         for item in self._objects.values():
@@ -182,13 +200,6 @@ class MotionSync:
 def _identity(instance, owner):
     number = tuple(instance.persistent_id) if instance.is_instance else ()
     return instance.object.original.as_pointer(), owner.original.as_pointer(), number
-
-
-def _read(obj, attributes):
-    try:
-        return mesh_form(obj.to_mesh(), attributes)
-    finally:
-        obj.to_mesh_clear()
 
 
 def _camera(depsgraph):

@@ -10,8 +10,6 @@ TERMINATOR_OFFSET = 0.1001  # Cycles' default, and a little for rounding
 
 UNSUPPORTED_TYPES = {
     "VOLUME": "volumes are not supported yet",
-    "POINTCLOUD": "point clouds are not supported yet",
-    "CURVES": "hair curves are not supported yet",
 }
 
 
@@ -68,11 +66,3 @@ def check_object(obj, scene, log) -> None:
             "where their shadows show edges",
             object=obj.name,
         )
-
-
-def check_hair(obj, log) -> None:
-    """Particle hair hangs on its emitter, which may itself be hidden."""
-    for system in obj.particle_systems:
-        settings = system.settings
-        if settings.type == "HAIR" and settings.render_type == "PATH":
-            log.warning("particle hair is not supported yet", object=obj.name)

@@ -42,6 +42,16 @@ inline std::vector<vec3> to_vectors(Key key, const char* path, const py::array& 
   return {first, first + count};
 }
 
+inline std::vector<float> to_numbers(Key key, const char* path, const py::array& a) {
+  const size_t count = rows(key, path, a, 0);
+  const auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(a);
+  if (!values) {
+    PyErr_Clear();
+    throw SceneError(key, path, "must hold numbers");
+  }
+  return {values.data(), values.data() + count};
+}
+
 template <class T>
 void copy_indices(Key key, const char* path, const py::array& a, uint32_t* out) {
   const auto values = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(a);

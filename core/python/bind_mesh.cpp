@@ -74,6 +74,38 @@ void set_mesh(SceneBuilder& self, Key key, std::string name, const py::object& p
   self.set_mesh(key, std::move(desc));
 }
 
+RoundDesc to_round(Key key, std::string name, const py::object& positions, const py::object& radii,
+                   const py::object& material_indices, const py::list& attributes) {
+  RoundDesc desc;
+  desc.name = std::move(name);
+  desc.positions = to_vectors(key, "positions", to_array(positions));
+  desc.radii = to_numbers(key, "radii", to_array(radii));
+  if (const auto a = optional_array(material_indices)) {
+    desc.material_indices = to_indices<uint32_t>(key, "material_indices", *a, 0);
+  }
+  for (const py::handle item : attributes) {
+    desc.attributes.push_back(to_attribute(key, item));
+  }
+  return desc;
+}
+
+void set_curves(SceneBuilder& self, Key key, std::string name, const py::object& positions,
+                const py::object& radii, const py::object& curves, bool straight,
+                const py::object& material_indices, const py::list& attributes) {
+  RoundDesc desc = to_round(key, std::move(name), positions, radii, material_indices, attributes);
+  desc.curves = to_indices<uint32_t>(key, "curves", to_array(curves), 0);
+  if (desc.curves.empty()) {
+    throw SceneError(key, "curves", "must rise from 0 to the number of positions");
+  }
+  desc.straight = straight;
+  self.set_round(key, std::move(desc));
+}
+
+void set_points(SceneBuilder& self, Key key, std::string name, const py::object& positions,
+                const py::object& radii, const py::list& attributes) {
+  self.set_round(key, to_round(key, std::move(name), positions, radii, py::none(), attributes));
+}
+
 }  // namespace
 
 void bind_mesh(py::class_<SceneBuilder>& builder) {
@@ -90,6 +122,17 @@ void bind_mesh(py::class_<SceneBuilder>& builder) {
       "values float[N] or [N, 1 to 4]; 'pointiness' (which needs 'normal') and "
       "'random_per_island' may come without, and are computed from edges int[E,2]. Arrays are "
       "copied.");
+  builder.def(
+      "set_curves", &set_curves, "key"_a, py::kw_only(), "name"_a, "positions"_a, "radii"_a,
+      "curves"_a, "straight"_a = false, "material_indices"_a = py::none(),
+      "attributes"_a = py::list(),
+      "Hair: tubes along curves, smooth (Catmull-Rom) or straight between their keys, under a key "
+      "among those of meshes. positions float[N,3] and radii float[N] of the keys; curves int[M+1]: "
+      "where each begins, and where the last one ends; material_indices int[M]; attributes as a "
+      "mesh's, of points and, as FACE, of curves. Only seen from outside.");
+  builder.def("set_points", &set_points, "key"_a, py::kw_only(), "name"_a, "positions"_a,
+              "radii"_a, "attributes"_a = py::list(),
+              "A point cloud: balls, likewise; attributes of points.");
 }
 
 }  // namespace janus::python

@@ -178,14 +178,16 @@ std::shared_ptr<const Scene> commit(const SceneBuilder& self, const py::object& 
 }
 
 py::dict counts(const Scene& scene) {
-  size_t triangles = 0;
+  size_t triangles = 0, round = 0;
   for (const Instance& instance : scene.instances) {
-    triangles += scene.meshes[instance.mesh]->triangles().size();
+    const Shape& shape = *scene.shapes[instance.shape];
+    (shape.mesh() ? triangles : round) += shape.primitives();
   }
   py::dict result;
-  result["meshes"] = scene.meshes.size();
+  result["meshes"] = scene.shapes.size();
   result["instances"] = scene.instances.size();
   result["triangles"] = triangles;
+  result["round"] = round;
   result["materials"] = scene.surfaces.size() - 1;  // without the default surface
   result["lights"] = scene.lights.size();
   result["meshes_built"] = scene.accel->built();

@@ -36,6 +36,12 @@ class Recorder:
         self.mesh_motion.pop(key, None)
         self.meshes[key] = self._copy(arguments)
 
+    def set_curves(self, key, **arguments):
+        self.set_mesh(key, **arguments)
+
+    def set_points(self, key, **arguments):
+        self.set_mesh(key, **arguments)
+
     def set_material(self, key, **arguments):
         self._note("material", key)
         self.materials[key] = arguments
@@ -118,6 +124,7 @@ class FakeCore:
 
     def __init__(self):
         self.builder = None
+        self.reads = {}  # name of a material -> keys of what it reads
         self.settings = None
         self.sessions = []
         self.diagnostics = []
@@ -140,6 +147,7 @@ class FakeCore:
 
     def SceneBuilder(self):  # noqa: N802
         self.builder = Recorder(self.diagnostics)
+        self.builder.attributes.update(self.reads)
         return self.builder
 
     def RenderSettings(self, **settings):  # noqa: N802

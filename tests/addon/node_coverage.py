@@ -12,14 +12,11 @@ from __future__ import annotations
 REFUSED = {
     "AMBIENT_OCCLUSION": "needs rays of its own",
     "BEVEL": "needs rays of its own",
-    "BSDF_HAIR": "hair",
-    "BSDF_HAIR_PRINCIPLED": "hair",
     "BSDF_METALLIC": "closure",
     "BSDF_RAY_PORTAL": "rays that go on elsewhere",
     "BSDF_SHEEN": "closure",
     "BSDF_TOON": "closure",
     "DISPLACEMENT": "displacement; named for the material",
-    "HAIR_INFO": "hair",
     "LIGHT_FALLOFF": "the distance to what is lit",
     "MATERIAL_RAYCAST": "needs rays of its own",
     "OUTPUT_AOV": "passes; the picture is the same without it",
@@ -71,6 +68,8 @@ IDLE_SOCKETS = {
         *("Anisotropic Rotation", "Tangent", "Coat Roughness", "Coat IOR", "Coat Tint"),
         *("Coat Normal", "Sheen Roughness", "Sheen Tint", "Thin Film IOR"),
     },
+    # Of Huang's model, which is named.
+    "BSDF_HAIR_PRINCIPLED": {"Aspect Ratio", "R lobe", "TT lobe", "TRT lobe"},
     # Of geometry nodes, in whose trees the same node stands.
     "MIX": {"A_Rotation", "B_Rotation", "Result_Rotation"},
 }
@@ -81,6 +80,7 @@ CORE_TYPES = {
     **{"VECTOR": "VECTOR", "RGBA": "COLOR", "SHADER": "CLOSURE"},
 }
 IDLE_ITEMS = {
+    ("BSDF_HAIR_PRINCIPLED", "model"): {"HUANG"},
     ("MIX", "data_type"): {"ROTATION"},
     ("BSDF_PRINCIPLED", "subsurface_method"): {
         *("BURLEY", "RANDOM_WALK", "RANDOM_WALK_SKIN", "RANDOM_WALK_LEGACY"),

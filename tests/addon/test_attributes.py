@@ -9,19 +9,11 @@ from conftest import add_square, messages, new_material, part
 
 @pytest.fixture
 def square(scene, fake_core):
-    """A square whose material reads `fake_core.keys`."""
+    """A square of material Paint."""
     obj = add_square()
     material = new_material("Paint")
     material.node_tree.nodes.new("ShaderNodeOutputMaterial")
     obj.data.materials.append(material)
-    recorder_of = fake_core.SceneBuilder
-
-    def builder():
-        recorder = recorder_of()
-        recorder.attributes["Paint"] = fake_core.keys
-        return recorder
-
-    fake_core.SceneBuilder = builder
     return obj
 
 
@@ -29,7 +21,7 @@ def test_edges_become_points(square, fake_core, export):
     attribute = square.data.attributes.new("Edge", "FLOAT", "EDGE")
     attribute.data.foreach_set("value", np.arange(4, dtype=np.float32))
     ends = [tuple(edge.vertices) for edge in square.data.edges]
-    fake_core.keys = ["attribute:Edge"]
+    fake_core.reads["Paint"] = ["attribute:Edge"]
     (sent,) = export().mesh_of("Square")["attributes"]
     assert sent["domain"] == "POINT"
     expected = [np.mean([i for i in range(4) if v in ends[i]]) for v in range(4)]
@@ -38,14 +30,14 @@ def test_edges_become_points(square, fake_core, export):
 
 def test_rotations_on_edges_are_named(square, fake_core, export):
     square.data.attributes.new("Turn", "QUATERNION", "EDGE")
-    fake_core.keys = ["attribute:Turn"]
+    fake_core.reads["Paint"] = ["attribute:Turn"]
     assert "attributes" not in export().mesh_of("Square")
     (message,) = messages("WARNING")
     assert "Square" in message and "Turn" in message
 
 
 def test_what_is_computed_comes_with_its_edges(square, fake_core, export):
-    fake_core.keys = ["pointiness"]
+    fake_core.reads["Paint"] = ["pointiness"]
     sent = export().mesh_of("Square")
     assert [a["key"] for a in sent["attributes"]] == ["normal", "pointiness"]
     assert sent["edges"].shape == (4, 2)
@@ -59,7 +51,7 @@ def test_tangents_of_a_face_of_five(scene, square, fake_core, export):
     mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", flat.ravel())
     mesh.materials.append(square.data.materials[0])
     square.data = mesh
-    fake_core.keys = ["tangent:", "tangent_sign:UVMap"]
+    fake_core.reads["Paint"] = ["tangent:", "tangent_sign:UVMap"]
     tangent, sign = export().mesh_of("Square")["attributes"]
     assert tangent["values"] == pytest.approx(np.tile([1, 0, 0, 1], (5, 1)), abs=1e-5)
     assert sign["values"] == pytest.approx(np.ones((5, 1)))
@@ -72,7 +64,7 @@ def test_properties_of_objects(square, fake_core, export):
     square.data["A"], square.data["B"] = 9.0, 7.0
     square.color = (0.1, 0.2, 0.3, 0.4)
     names = ("A", "B", "C", "color", "color[0]", "D")
-    fake_core.keys = [f"object:{name}" for name in names]
+    fake_core.reads["Paint"] = [f"object:{name}" for name in names]
     (instance,) = export().instances.values()
     found = {key.removeprefix("object:"): value for key, value in instance["attributes"].items()}
     assert found["A"] == (0.5, 0.5, 0.5, 1.0)

@@ -10,8 +10,6 @@ def test_unsupported_things_are_named(scene, export):
     square = add_square("Ghost")
     square.is_shadow_catcher = True
     bpy.ops.object.volume_add()
-    cloud = bpy.data.objects.new("Cloud", bpy.data.pointclouds.new("Cloud"))
-    scene.collection.objects.link(cloud)
     material = new_material("Foggy")
     output = material.node_tree.nodes.new("ShaderNodeOutputMaterial")
     for kind, socket in (("VolumeScatter", "Volume"), ("Displacement", "Displacement")):
@@ -25,7 +23,6 @@ def test_unsupported_things_are_named(scene, export):
     for expected in (
         "Object 'Ghost': shadow catchers",
         "Object 'Volume': volumes",
-        "Object 'Cloud': point clouds",
         "Material 'Foggy': volumes",
         "Material 'Foggy': displacement",
         "Object 'Sky': the world's own limit of bounces",
@@ -48,15 +45,6 @@ def test_settings_of_cycles_alone_are_named(scene, export):
     assert "Object 'Soft': offsets of the shadow terminator" in found[1]
     assert "Object 'Softer': offsets of the shadow terminator" in found[2]
     assert any("Fast GI" in text for text in messages("INFO"))
-
-
-def test_particle_hair_is_named(scene, export):
-    square = add_square("Lawn")
-    square.modifiers.new("Hair", "PARTICLE_SYSTEM")
-    settings = square.particle_systems[0].settings
-    settings.type, settings.count = "HAIR", 5
-    export()
-    assert "Object 'Lawn': particle hair" in "\n".join(messages())
 
 
 def test_findings_are_counted_not_repeated(scene, export):

@@ -16,6 +16,8 @@
 #include <set>
 #include <utility>
 
+#include "janus/geometry/mesh.h"
+#include "janus/geometry/round_shape.h"
 #include "janus/util/error.h"
 
 namespace janus {
@@ -83,19 +85,27 @@ class Device {
   std::atomic<ssize_t> bytes_{0};
 };
 
-// The hierarchy of a mesh, which it keeps: its buffers are the mesh's.
-class MeshAccel {
+// Refuses hits of what is round from within.
+void refuse_inside(const RTCFilterFunctionNArguments* args) {
+  for (unsigned i = 0; i < args->N; ++i) {
+    const float facing =
+        RTCRayN_dir_x(args->ray, args->N, i) * RTCHitN_Ng_x(args->hit, args->N, i) +
+        RTCRayN_dir_y(args->ray, args->N, i) * RTCHitN_Ng_y(args->hit, args->N, i) +
+        RTCRayN_dir_z(args->ray, args->N, i) * RTCHitN_Ng_z(args->hit, args->N, i);
+    if (args->valid[i] != 0 && facing > 0.0f) {
+      args->valid[i] = 0;
+    }
+  }
+}
+
+// The hierarchy of a shape, which it keeps: its buffers are the shape's.
+class ShapeAccel {
  public:
-  MeshAccel(std::shared_ptr<Device> device, std::shared_ptr<const Mesh> mesh,
-            const CancelToken& cancel)
-      : device_(std::move(device)), mesh_(std::move(mesh)), scene_(device_->new_scene()) {
-    RTCGeometry geometry = rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               mesh_->positions().data(), 0, sizeof(vec3),
-                               mesh_->positions().size() - 1);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               mesh_->triangles().data(), 0, sizeof(Mesh::Triangle),
-                               mesh_->triangles().size());
+  ShapeAccel(std::shared_ptr<Device> device, std::shared_ptr<const Shape> shape,
+             const CancelToken& cancel)
+      : device_(std::move(device)), shape_(std::move(shape)), scene_(device_->new_scene()) {
+    RTCGeometry geometry =
+        shape_->mesh() ? geometry_of(*shape_->mesh()) : geometry_of(*shape_->round());
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
@@ -106,15 +116,45 @@ class MeshAccel {
       throw;
     }
   }
-  ~MeshAccel() { rtcReleaseScene(scene_); }
-  MeshAccel(const MeshAccel&) = delete;
-  MeshAccel& operator=(const MeshAccel&) = delete;
+  ~ShapeAccel() { rtcReleaseScene(scene_); }
+  ShapeAccel(const ShapeAccel&) = delete;
+  ShapeAccel& operator=(const ShapeAccel&) = delete;
 
   RTCScene scene() const { return scene_; }
 
  private:
+  RTCGeometry geometry_of(const Mesh& mesh) const {
+    RTCGeometry geometry = rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               mesh.positions().data(), 0, sizeof(vec3),
+                               mesh.positions().size() - 1);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh.triangles().data(), 0, sizeof(Mesh::Triangle),
+                               mesh.triangles().size());
+    return geometry;
+  }
+
+  RTCGeometry geometry_of(const RoundShape& shape) const {
+    using Kind = RoundShape::Kind;
+    const RTCGeometryType type =
+        shape.kind() == Kind::Smooth     ? RTC_GEOMETRY_TYPE_ROUND_CATMULL_ROM_CURVE
+        : shape.kind() == Kind::Straight ? RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE
+                                         : RTC_GEOMETRY_TYPE_SPHERE_POINT;
+    RTCGeometry geometry = rtcNewGeometry(device_->handle(), type);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                               shape.controls().data(), 0, sizeof(vec4), shape.controls().size());
+    if (shape.curves()) {
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT,
+                                 &shape.pieces().data()->control, 0, sizeof(RoundShape::Piece),
+                                 shape.pieces().size());
+    }
+    rtcSetGeometryIntersectFilterFunction(geometry, refuse_inside);
+    rtcSetGeometryOccludedFilterFunction(geometry, refuse_inside);
+    return geometry;
+  }
+
   std::shared_ptr<Device> device_;
-  std::shared_ptr<const Mesh> mesh_;
+  std::shared_ptr<const Shape> shape_;
   RTCScene scene_;
 };
 
@@ -173,7 +213,7 @@ struct Accel::Impl {
   View everything;
   std::array<View, kRayTypes> own;  // of a type that is the first to meet just these instances
   std::array<const View*, kRayTypes> view;                         // by type
-  std::map<const Mesh*, std::shared_ptr<const MeshAccel>> bottom;  // of those that are needed
+  std::map<const Shape*, std::shared_ptr<const ShapeAccel>> bottom;  // of those that are needed
 
   ~Impl() {
     for_each_scene([](RTCScene scene) { rtcReleaseScene(scene); });
@@ -209,7 +249,13 @@ struct Accel::Impl {
       return false;
     }
     hit.instance = query.hit.instID[0];
-    placements[hit.instance].surface_point(query.hit.primID, vec2(query.hit.u, query.hit.v), hit);
+    const Placement& placement = placements[hit.instance];
+    if (placement.round()) [[unlikely]] {
+      placement.round_point(query.hit.primID, query.hit.u,
+                            vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z), hit);
+    } else {
+      placement.surface_point(query.hit.primID, vec2(query.hit.u, query.hit.v), hit);
+    }
     return true;
   }
 
@@ -226,7 +272,7 @@ struct Accel::Impl {
   }
 };
 
-Accel::Accel(const MeshList& meshes, const std::vector<Instance>& instances,
+Accel::Accel(const ShapeList& shapes, const std::vector<Instance>& instances,
              const CancelToken& cancel, const Accel* previous)
     : impl_(std::make_unique<Impl>()), instances_(instances) {
   impl_->device = previous ? previous->impl_->device : std::make_shared<Device>();
@@ -249,18 +295,18 @@ Accel::Accel(const MeshList& meshes, const std::vector<Instance>& instances,
   placements_.reserve(instances.size());
   for (size_t i = 0; i < instances.size(); ++i) {
     const Instance& instance = instances[i];
-    const std::shared_ptr<const Mesh>& mesh = meshes[instance.mesh];
-    placements_.emplace_back(*mesh, instance);
-    if (mesh->triangles().empty()) {
+    const std::shared_ptr<const Shape>& shape = shapes[instance.shape];
+    placements_.emplace_back(*shape, instance);
+    if (shape->primitives() == 0) {
       continue;
     }
-    std::shared_ptr<const MeshAccel>& bottom = impl_->bottom[mesh.get()];
+    std::shared_ptr<const ShapeAccel>& bottom = impl_->bottom[shape.get()];
     if (!bottom && previous) {
-      const auto known = previous->impl_->bottom.find(mesh.get());
+      const auto known = previous->impl_->bottom.find(shape.get());
       bottom = known == previous->impl_->bottom.end() ? nullptr : known->second;
     }
     if (!bottom) {
-      bottom = std::make_shared<MeshAccel>(impl_->device, mesh, cancel);
+      bottom = std::make_shared<ShapeAccel>(impl_->device, shape, cancel);
       ++built_;
     }
     RTCGeometry geometry = rtcNewGeometry(impl_->device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);

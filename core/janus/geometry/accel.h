@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "janus/geometry/interaction.h"
-#include "janus/geometry/mesh.h"
+#include "janus/geometry/instance.h"
 #include "janus/geometry/placement.h"
 #include "janus/util/cancel.h"
 
@@ -17,9 +17,9 @@ namespace janus {
 
 class Accel {
  public:
-  // Builds the two-level hierarchy; instances must outlive this. The hierarchies of meshes that
+  // Builds the two-level hierarchy; instances must outlive this. The hierarchies of shapes that
   // are also in `previous` are shared with it. Throws Cancelled, or Error with Embree's message.
-  Accel(const MeshList& meshes, const std::vector<Instance>& instances, const CancelToken& cancel,
+  Accel(const ShapeList& shapes, const std::vector<Instance>& instances, const CancelToken& cancel,
         const Accel* previous = nullptr);
   ~Accel();
   Accel(const Accel&) = delete;
@@ -49,22 +49,23 @@ class Accel {
   bool occluded_opaque(vec3 a, vec3 b, RayType type) const;
   bool intersect_transparent(const Ray& ray, RayType type, SurfaceInteraction& hit) const;
 
-  // The surface at barycentric coordinates (b1, b2) of a triangle; `offset` and normals as from a
-  // hit. Used by light sampling, so that both ends of a shadow ray follow one rule.
+  // The surface at barycentric coordinates (b1, b2) of a triangle of a mesh; `offset` and normals
+  // as from a hit. Used by light sampling, so that both ends of a shadow ray follow one rule.
   SurfaceInteraction surface_point(uint32_t instance, uint32_t primitive, vec2 b) const;
 
-  // Its position alone.
+  // Its position alone; of what is round, the one amid it.
   vec3 position(uint32_t instance, uint32_t primitive, vec2 b) const {
-    return placements_[instance].position(primitive, b);
+    const Placement& placement = placements_[instance];
+    return placement.round() ? placement.center(primitive, b.x) : placement.position(primitive, b);
   }
 
   // World bounds of everything.
   const Bounds& bounds() const { return bounds_; }
 
   // Bytes that Embree holds, for this and for what shares hierarchies with it. Instances of one
-  // mesh share its hierarchy.
+  // shape share its hierarchy.
   size_t bytes() const;
-  // How many hierarchies of meshes were built, and not taken over.
+  // How many hierarchies of shapes were built, and not taken over.
   size_t built() const { return built_; }
 
   static std::string embree_version();

@@ -39,24 +39,16 @@ void check_attributes(const std::string& key, const MeshDesc& desc, size_t corne
     if (is_derived(attribute)) {
       continue;
     }
-    const std::string path = "attributes[" + attribute.key + "]";
-    if (attribute.channels < 1 || attribute.channels > 4) {
-      throw SceneError(key, path, "must have 1 to 4 channels");
-    }
-    const size_t size = attribute.values.size() / attribute.channels;
-    const size_t least = domain_size(desc, attribute.domain, corners);
-    const bool exact = attribute.domain != AttributeDomain::Face;  // faces without triangles
-    if (attribute.values.size() % attribute.channels != 0 || size < least ||
-        (exact && size != least)) {
-      throw SceneError(key, path,
-                       "has " + std::to_string(size) + " elements, not " + std::to_string(least));
-    }
+    // Faces may be without triangles.
+    check_attribute(key, attribute, domain_size(desc, attribute.domain, corners),
+                    attribute.domain == AttributeDomain::Face);
   }
 }
 
 }  // namespace
 
-Mesh::Mesh(const std::string& key, MeshDesc&& desc) : name_(desc.name.empty() ? key : desc.name) {
+Mesh::Mesh(const std::string& key, MeshDesc&& desc) {
+  name_ = desc.name.empty() ? key : desc.name;
   const size_t corners =
       desc.corner_vertices.empty() ? desc.positions.size() : desc.corner_vertices.size();
   if (!desc.corner_normals.empty() && desc.corner_normals.size() != corners) {
@@ -132,9 +124,7 @@ Mesh::Mesh(const std::string& key, MeshDesc&& desc) : name_(desc.name.empty() ? 
     }
   }
   if (dropped > 0) {
-    diagnostics_.push_back(
-        {Severity::Warning, name_, "", "",
-         std::to_string(dropped) + " triangles with non-finite vertices are left out"});
+    warn(std::to_string(dropped) + " triangles with non-finite vertices are left out");
   }
   normals_ = std::move(desc.vertex_normals.empty() ? desc.corner_normals : desc.vertex_normals);
   positions_ = std::move(desc.positions);
@@ -159,9 +149,8 @@ void Mesh::take_motion(const std::string& key, std::vector<MeshKey> motion) {
                            std::to_string(normals_.size()));
     }
     if (!std::ranges::all_of(motion[i].positions, [](vec3 p) { return is_finite(p); })) {
-      diagnostics_.push_back({Severity::Warning, name_, "", "",
-                              "it has vertices that are not finite at some time of the shutter: it "
-                              "is rendered without deformation"});
+      warn("it has vertices that are not finite at some time of the shutter: it is rendered without "
+           "deformation");
       return;
     }
     for (const vec3 p : motion[i].positions) {
@@ -171,7 +160,7 @@ void Mesh::take_motion(const std::string& key, std::vector<MeshKey> motion) {
   motion_ = std::move(motion);
 }
 
-std::shared_ptr<const Mesh> Mesh::at(float time) const {
+std::shared_ptr<const Shape> Mesh::at(float time) const {
   const KeyTime key(time, motion_.size());
   const MeshKey &a = motion_[key.first], &b = motion_[key.first + 1];
   const float t = key.share;
@@ -208,12 +197,6 @@ void Mesh::corner_normals(uint32_t primitive, vec3 (&normals)[3]) const {
   for (int k = 0; k < 3; ++k) {
     normals[k] = smooth() ? normals_[triangles()[primitive].normal[k]] : vec3(0.0f);
   }
-}
-
-const AttributeDesc* Mesh::attribute(const std::string& key) const {
-  const std::vector<AttributeDesc>& attributes = topology_->attributes;
-  const auto found = std::ranges::find(attributes, key, &AttributeDesc::key);
-  return found == attributes.end() ? nullptr : &*found;
 }
 
 TriangleIndices Mesh::indices(uint32_t primitive) const {

@@ -37,14 +37,21 @@ UnsignedInverse unsigned_inverse(const mat3& m) {
 
 }  // namespace
 
-Placement::Placement(const Mesh& mesh, const Instance& instance)
+Placement::Placement(const Shape& shape, const Instance& instance)
     : linear_(instance.to_world),
       translation_(instance.to_world[3]),
       normal_(instance.normal_to_world),
-      triangles_(mesh.triangles().data()),
-      positions_(mesh.positions().data()),
-      normals_(mesh.smooth() ? mesh.normals().data() : nullptr),
+      round_(shape.round()),
       instance_(&instance) {
+  if (const Mesh* mesh = shape.mesh()) {
+    triangles_ = mesh->triangles().data();
+    positions_ = mesh->positions().data();
+    normals_ = mesh->smooth() ? mesh->normals().data() : nullptr;
+  }
+  bound_rounding();
+}
+
+void Placement::bound_rounding() {
   // A ray that leaves the world point M p + t goes back to object space by the inverse W of M.
   const float determinant = std::abs(glm::determinant(linear_));
   const UnsignedInverse error = unsigned_inverse(linear_);
@@ -98,6 +105,33 @@ void Placement::surface_point(uint32_t primitive, vec2 b, SurfaceInteraction& hi
                        determinant_error_ * std::abs(dot(object_normal, v0)) +
                        0x1p-13f * max_component(n) * max_component(extent);
   hit.offset = kGamma * (to_world + object / length) + tilt / length;
+}
+
+void Placement::round_point(uint32_t primitive, float u, vec3 object_normal,
+                            SurfaceInteraction& hit) const {
+  const RoundShape::Place place = round_->place(primitive, u);
+  // Where a smooth tube grows thinner its normal leans along it, but the point is straight beside
+  // `u`. A straight one is what a ball sweeps.
+  const float along2 = length2(place.along);
+  vec3 outward = normalize(object_normal);
+  if (along2 > 0.0f && round_->kind() == RoundShape::Kind::Smooth) {
+    const vec3 across = outward - (dot(outward, place.along) / along2) * place.along;
+    outward = length2(across) > 1e-12f ? normalize(across) : outward;
+  }
+  hit.primitive = primitive;
+  hit.barycentric = vec2(u, 0.0f);
+  hit.material = instance_->material(round_->material(primitive));
+  hit.p = linear_ * (place.center + place.radius * outward) + translation_;
+  hit.ng = normalize(normal_ * object_normal);
+  hit.ns = normalize(normal_ * outward);
+  // Outward no ray meets the surface again, whatever the rounding, as it is not seen from within;
+  // inward this is far enough, and much less than the thickness.
+  constexpr float kShare = 1e-3f, kRoundings = 16.0f;
+  const float coordinates =
+      dot(glm::abs(hit.ng), forward_ * (glm::abs(place.center) + place.radius) +
+                                glm::abs(translation_));
+  hit.offset = kRoundings * kGamma * coordinates +
+               kShare * place.radius * glm::length(linear_ * outward);
 }
 
 }  // namespace janus

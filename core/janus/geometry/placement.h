@@ -2,7 +2,9 @@
 #pragma once
 
 #include "janus/geometry/interaction.h"
+#include "janus/geometry/instance.h"
 #include "janus/geometry/mesh.h"
+#include "janus/geometry/round_shape.h"
 
 namespace janus {
 
@@ -10,8 +12,8 @@ namespace janus {
 // together.
 class Placement {
  public:
-  // Mesh and instance must outlive this.
-  Placement(const Mesh& mesh, const Instance& instance);
+  // Shape and instance must outlive this.
+  Placement(const Shape& shape, const Instance& instance);
 
   // The point at barycentric coordinates (b1, b2) of a triangle. From these and not along a ray:
   // the error does not grow with distance.
@@ -25,13 +27,26 @@ class Placement {
   // Writes the surface there to `hit`, but for its `instance`.
   void surface_point(uint32_t primitive, vec2 b, SurfaceInteraction& hit) const;
 
+  // --- Of what is round instead.
+
+  bool round() const { return round_ != nullptr; }
+  // Amid it, at `u` of a piece.
+  vec3 center(uint32_t primitive, float u) const {
+    return linear_ * round_->place(primitive, u).center + translation_;
+  }
+  // Likewise the surface where it has this normal, of object space and any length.
+  void round_point(uint32_t primitive, float u, vec3 object_normal, SurfaceInteraction& hit) const;
+
  private:
+  void bound_rounding();
+
   mat3 linear_;
   vec3 translation_;
   mat3 normal_;  // inverse transpose
-  const Mesh::Triangle* triangles_;
-  const vec3* positions_;
-  const vec3* normals_;  // null: flat
+  const Mesh::Triangle* triangles_ = nullptr;
+  const vec3* positions_ = nullptr;
+  const vec3* normals_ = nullptr;  // null: flat
+  const RoundShape* round_ = nullptr;
   const Instance* instance_;
   // Bounds of rounding, in units of it, for a point p of object space: forward_ |p| on the way to
   // the world, back_ |p| + back_translation_ on the way back; determinant_error_: relative.

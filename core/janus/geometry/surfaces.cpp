@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "janus/geometry/mesh.h"
+#include "janus/geometry/round_shape.h"
+
 namespace janus {
 
 uint32_t Surfaces::add_program(Program program, const std::string& material, float material_index) {
@@ -13,14 +16,15 @@ uint32_t Surfaces::add_program(Program program, const std::string& material, flo
     shared_->material_names.push_back(material);
   }
   surfaces_.push_back({shared_->programs.back().get(), nullptr, material_index,
-                       static_cast<uint32_t>(shared_->material_names.size() - 1)});
+                       static_cast<uint32_t>(shared_->material_names.size() - 1), false});
   return static_cast<uint32_t>(surfaces_.size() - 1);
 }
 
-uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
+uint32_t Surfaces::bind(uint32_t surface, const Shape& shape,
                         const std::map<std::string, vec4>& own) {
   const Program& program = *surfaces_[surface].program;
-  if (program.attributes.empty()) {
+  const bool one_way = program.fibers || (shape.round() && program.transmits);
+  if (program.attributes.empty() && one_way == surfaces_[surface].one_way) {
     return surface;
   }
   std::vector<float> read;
@@ -29,13 +33,13 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
       read.insert(read.end(), &found->second.x, &found->second.x + 4);
     }
   }
-  const auto [entry, fresh] = shared_->bound.try_emplace({surface, &mesh, std::move(read)}, 0);
+  const auto [entry, fresh] = shared_->bound.try_emplace({surface, &shape, std::move(read)}, 0);
   if (fresh) {
     auto slots = std::make_unique<const AttributeDesc*[]>(program.attributes.size());
     const auto find = [&](const std::string& key) {
       const auto found = own.find(key);
       if (found == own.end()) {
-        return mesh.attribute(key);
+        return shape.attribute(key);
       }
       const float* first = &found->second.x;
       shared_->own.push_back(std::make_unique<const AttributeDesc>(
@@ -44,13 +48,14 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
     };
     std::transform(program.attributes.begin(), program.attributes.end(), slots.get(), find);
     entry->second = static_cast<uint32_t>(surfaces_.size());
-    surfaces_.push_back({&program, slots.get(), material_index(surface), material(surface)});
+    surfaces_.push_back(
+        {&program, slots.get(), material_index(surface), material(surface), one_way});
     shared_->attributes.push_back(std::move(slots));
   }
   return entry->second;
 }
 
-void Surfaces::set_objects(const MeshList& meshes, const std::vector<Instance>& instances,
+void Surfaces::set_objects(const ShapeList& shapes, const std::vector<Instance>& instances,
                            const CameraView& camera, const PixelFootprint& footprint) {
   footprint_ = footprint;
   const bool needed = std::any_of(shared_->programs.begin(), shared_->programs.end(),
@@ -59,7 +64,7 @@ void Surfaces::set_objects(const MeshList& meshes, const std::vector<Instance>& 
     return;
   }
   objects_.clear();
-  meshes_.clear();
+  shapes_.clear();
   for (const Instance& instance : instances) {
     ObjectData data;
     data.to_world = instance.to_world;
@@ -71,33 +76,43 @@ void Surfaces::set_objects(const MeshList& meshes, const std::vector<Instance>& 
     data.object_index = instance.object_index;
     data.random = instance.random;
     objects_.push_back(data);
-    meshes_.push_back(meshes[instance.mesh].get());
+    shapes_.push_back(shapes[instance.shape].get());
   }
 }
 
 ShadingPoint Surfaces::point(const SurfaceInteraction& hit, vec3 view) const {
   const Surface& surface = surfaces_[hit.material];
-  const Mesh& mesh = *meshes_[hit.instance];
+  const Shape& shape = *shapes_[hit.instance];
   ShadingPoint point{};
   point.p = hit.p;
   point.ng = hit.ng;
   point.ns = hit.ns;
   point.view = view;
   point.barycentric = hit.barycentric;
-  point.triangle = mesh.indices(hit.primitive);
+  point.triangle = shape.indices(hit.primitive);
   point.object = &objects_[hit.instance];
   point.attributes = surface.attributes;
   point.material_index = surface.material_index;
-  if (!surface.program->filter_widths.empty()) {
-    const mat3 linear(point.object->to_world);
-    const auto vertex = [&](int k) { return mesh.positions()[point.triangle.vertices[k]]; };
+  const Program& program = *surface.program;
+  const Mesh* mesh = shape.mesh();
+  const mat3 linear(point.object->to_world);
+  if (!mesh) {
+    point.on_curve = shape.round()->curves();
+    point.edge_u = linear * shape.round()->place(hit.primitive, hit.barycentric.x).along;
+  } else if (program.fibers || !program.filter_widths.empty()) {
+    const auto vertex = [&](int k) { return mesh->positions()[point.triangle.vertices[k]]; };
     point.edge_u = linear * (vertex(1) - vertex(0));
     point.edge_v = linear * (vertex(2) - vertex(0));
-    mesh.corner_normals(hit.primitive, point.corner_normals);
-    point.footprint = footprint_.width + footprint_.angle * glm::length(hit.p - footprint_.eye);
   }
-  if (surface.program->tangents) {
-    point.object_normal = mesh.interpolated_normal(hit.primitive, hit.barycentric);
+  if (!program.filter_widths.empty()) {
+    point.footprint = footprint_.width + footprint_.angle * glm::length(hit.p - footprint_.eye);
+    if (mesh) {
+      mesh->corner_normals(hit.primitive, point.corner_normals);
+    }
+  }
+  if (program.tangents) {
+    point.object_normal = mesh ? mesh->interpolated_normal(hit.primitive, hit.barycentric)
+                               : glm::transpose(linear) * hit.ns;
   }
   return point;
 }

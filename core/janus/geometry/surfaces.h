@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "janus/geometry/interaction.h"
-#include "janus/geometry/mesh.h"
+#include "janus/geometry/instance.h"
 #include "janus/shading/program.h"
 
 namespace janus {
@@ -37,12 +37,12 @@ class Surfaces {
   const std::vector<std::string>& material_names() const { return shared_->material_names; }
   // Can some surface reflect or refract without blur?
   bool any_delta() const { return shared_->any_delta; }
-  // The number of a program's surface on a mesh, which has attributes for it or not, in an instance
-  // with attributes of its `own`. The mesh must not move from then on.
-  uint32_t bind(uint32_t program, const Mesh& mesh, const std::map<std::string, vec4>& own = {});
+  // The number of a program's surface on a shape, which has attributes for it or not, in an
+  // instance with attributes of its `own`. The shape must stay where it is from then on.
+  uint32_t bind(uint32_t program, const Shape& shape, const std::map<std::string, vec4>& own = {});
 
   // The instances that hits speak of, in their order.
-  void set_objects(const MeshList& meshes, const std::vector<Instance>& instances,
+  void set_objects(const ShapeList& shapes, const std::vector<Instance>& instances,
                    const CameraView& camera, const PixelFootprint& footprint);
 
   // Shades a hit that is seen from the unit direction `view`.
@@ -53,6 +53,7 @@ class Surfaces {
     } else {
       program.run(point(hit, view), result);
     }
+    result.bsdf.set_one_way(surfaces_[hit.material].one_way);
   }
   // And keeps what another view needs.
   void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result,
@@ -65,6 +66,7 @@ class Surfaces {
       reshading.program = &program;
       reshading.point = point(hit, view);
       program.run(reshading.point, result);
+      result.bsdf.set_one_way(surfaces_[hit.material].one_way);
     }
   }
   ShadingPoint point(const SurfaceInteraction& hit, vec3 view) const;
@@ -75,20 +77,23 @@ class Surfaces {
     const AttributeDesc* const* attributes;
     float material_index;
     uint32_t material;
+    // Light goes through the inside of what is round in an event of the surface, where the camera
+    // sees it: see Bsdf::one_way().
+    bool one_way;
   };
   struct Shared {
     std::vector<std::unique_ptr<const Program>> programs;
     std::vector<std::string> material_names;
     std::vector<std::unique_ptr<const AttributeDesc*[]>> attributes;
-    // By program, mesh, and what it reads of the instance.
-    std::map<std::tuple<uint32_t, const Mesh*, std::vector<float>>, uint32_t> bound;
+    // By program, shape, and what it reads of the instance.
+    std::map<std::tuple<uint32_t, const Shape*, std::vector<float>>, uint32_t> bound;
     std::vector<std::unique_ptr<const AttributeDesc>> own;  // of instances
     bool any_delta = false;
   };
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   std::vector<Surface> surfaces_;  // those of add_program(), then those of bind()
   std::vector<ObjectData> objects_;
-  std::vector<const Mesh*> meshes_;  // by instance
+  std::vector<const Shape*> shapes_;  // by instance
   PixelFootprint footprint_;
 };
 

@@ -144,11 +144,11 @@ class DataPasses final : public PassIntegrator {
   void see_surface(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo,
                    DataSample& sample) const {
     sample.set(DataPass::Normal, average_normal(bsdf, facing(hit.ns, hit, wo), wo));
-    const Mesh& mesh = *context_.scene().meshes[context_.scene().instances[hit.instance].mesh];
-    if (const AttributeDesc* uv = mesh.attribute("uv:"); uv && choice_.wants(DataPass::Uv)) {
+    const Shape& shape = *context_.scene().shapes[context_.scene().instances[hit.instance].shape];
+    if (const AttributeDesc* uv = shape.attribute("uv:"); uv && choice_.wants(DataPass::Uv)) {
       ShadingPoint point{};
       point.barycentric = hit.barycentric;
-      point.triangle = mesh.indices(hit.primitive);
+      point.triangle = shape.indices(hit.primitive);
       point.attributes = &uv;
       const vec4 value = point.attribute(0);
       sample.set(DataPass::Uv, vec3(value.x, value.y, 1.0f));

@@ -26,12 +26,12 @@ inline uint64_t mix64(uint64_t x) {
   return x;
 }
 
-// Jenkins' lookup3 of one word: Cycles' hash of a number.
-inline uint32_t jenkins_hash(uint32_t x) {
+// Jenkins' lookup3 of a number, and of noughts behind it up to `words`: Cycles' hash.
+inline uint32_t jenkins_hash(uint32_t x, uint32_t words = 1) {
   const auto mix = [](uint32_t& to, uint32_t from, int bits) {
     to = (to ^ from) - std::rotl(from, bits);
   };
-  uint32_t a = 0xdeadbeefU + (1U << 2) + 13U, b = a, c = a;
+  uint32_t a = 0xdeadbeefU + (words << 2) + 13U, b = a, c = a;
   a += x;
   mix(c, b, 14);
   mix(a, c, 11);

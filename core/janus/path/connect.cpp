@@ -185,7 +185,7 @@ std::optional<Merge> merge_vertices(const LightVertex& l, const PathVertex& c, c
   std::optional<Merge> merged;
   const int edges = l.edges + c.edges;
   if (edges > l.max_edges || l.crossings + c.crossings > rules.max_crossings ||
-      dot(l.ng, c.hit.ng) < kSameSurface) {
+      dot(l.ng, c.hit.ng) < kSameSurface || c.shading.bsdf.one_way()) {
     return merged;
   }
   const BsdfView bsdf = c.bsdf();

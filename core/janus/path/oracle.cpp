@@ -67,6 +67,9 @@ struct FullPath {
     if (s == 1) {
       return !z(1).delta;
     }
+    if (z(s - 1).vertex->bsdf().one_way()) {
+      return false;  // no walk from a light ends there
+    }
     if (s == k()) {
       return !z(k() - 1).delta;
     }
@@ -99,7 +102,7 @@ struct FullPath {
       own = i == s ? term : own;
     }
     for (int i = 2; i < k() && counts.merge > 0.0f; ++i) {
-      total += z(i).delta ? 0.0 : std::pow(counts.merge * merge_density(i), exponent);
+      total += z(i).delta || z(i).vertex->bsdf().one_way() ? 0.0 : std::pow(counts.merge * merge_density(i), exponent);
     }
     return total > 0.0 ? own / total : 0.0;
   }

@@ -188,7 +188,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     return;
   }
   const Receiver receiver = scene.receiver(v.hit, v.bsdf().transmits(), v.back);
-  if (!receiver.lit_by(light)) {
+  if (!receiver.lit_by(light) || v.shading.bsdf.one_way()) {
     return;
   }
   const float pdf_nee = scene.light_sampler.pmf_illumination(receiver, index, emission->primitive) *
@@ -238,7 +238,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
     }
     const float d2 = length2(v.hit.p - previous);
     const float pdf_area = step.left.pdf_solid * std::abs(dot(step.ray.direction, v.hit.ng)) / d2;
-    if (!usable_density(pdf_area)) {
+    if (!usable_density(pdf_area) || v.shading.bsdf.one_way()) {
       return;
     }
     v.mis = mis.advance(step.behind, step.left.delta, step.cos_previous / d2, pdf_area);
@@ -357,6 +357,9 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     v.mis = v.edges == 1
                 ? mis.begin_camera(pdf_area)
                 : mis.advance(step.behind, step.left.delta, step.cos_previous / d2, pdf_area);
+    if (v.shading.bsdf.one_way()) {
+      v.mis.a = {};  // no walk from a light ends here
+    }
     v.previous = step.left;
     sampler.start_block(v.edges);
     on_vertex(v, sampler);

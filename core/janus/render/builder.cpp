@@ -43,19 +43,19 @@ class Commit {
     }
   }
 
-  void add_meshes(const std::map<std::string, std::shared_ptr<MeshItem>>& meshes) {
-    for (const auto& [key, item] : meshes) {
+  void add_shapes(const std::map<std::string, std::shared_ptr<ShapeItem>>& shapes) {
+    for (const auto& [key, item] : shapes) {
       cancel_.throw_if_cancelled();
-      mesh_index_[key] = static_cast<uint32_t>(scene_.meshes.size());
-      scene_.meshes.push_back(item->mesh(key));
-      add_new(scene_.diagnostics, scene_.meshes.back()->diagnostics());
+      shape_index_[key] = static_cast<uint32_t>(scene_.shapes.size());
+      scene_.shapes.push_back(item->shape(key));
+      add_new(scene_.diagnostics, scene_.shapes.back()->diagnostics());
     }
   }
 
   void add_instances(const std::map<std::string, InstanceDesc>& instances) {
     for (const auto& [key, desc] : instances) {
-      const auto mesh = mesh_index_.find(desc.mesh);
-      if (mesh == mesh_index_.end()) {
+      const auto shape = shape_index_.find(desc.mesh);
+      if (shape == shape_index_.end()) {
         throw SceneError(key, "mesh", "there is no mesh '" + desc.mesh + "'");
       }
       const std::string& name = desc.name.empty() ? key : desc.name;
@@ -63,7 +63,7 @@ class Commit {
       instance.name = name;
       instance.light_group = desc.light_group;
       instance.asset = desc.asset;
-      instance.mesh = mesh->second;
+      instance.shape = shape->second;
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;
       instance.holdout = desc.holdout;
@@ -90,7 +90,7 @@ class Commit {
         add_shadow_types(seen, desc.receiver);
         for (const uint32_t program : programs) {
           seen.materials.push_back(
-              scene_.surfaces.bind(program, *scene_.meshes[seen.mesh], desc.attributes));
+              scene_.surfaces.bind(program, *scene_.shapes[seen.shape], desc.attributes));
         }
         add_instance(std::move(seen));
       }
@@ -102,7 +102,7 @@ class Commit {
   }
 
   void build_accel(const Scene* last) {
-    scene_.accel = std::make_shared<const Accel>(scene_.meshes, scene_.instances, cancel_,
+    scene_.accel = std::make_shared<const Accel>(scene_.shapes, scene_.instances, cancel_,
                                                  last ? last->accel.get() : nullptr);
   }
 
@@ -112,7 +112,8 @@ class Commit {
       const bool emits =
           std::any_of(instance.materials.begin(), instance.materials.end(),
                       [&](uint32_t p) { return scene_.surfaces.program(p).emits(); });
-      if (!emits) {
+      const Mesh* mesh = scene_.shapes[instance.shape]->mesh();
+      if (!emits || !mesh) {  // what is round is found by chance, as in Cycles
         continue;
       }
       // Rays find what nobody looks for, or what was dark wherever one looked.
@@ -122,8 +123,8 @@ class Commit {
             return program.emits() && (!program.sample_emission || program.varying_emission);
           });
       auto light =
-          std::make_unique<MeshLight>(*scene_.accel, scene_.surfaces, *scene_.meshes[instance.mesh],
-                                      instance, static_cast<uint32_t>(i));
+          std::make_unique<MeshLight>(*scene_.accel, scene_.surfaces, *mesh, instance,
+                                      static_cast<uint32_t>(i));
       if (light->power() > 0.0f || by_chance) {
         instance.light = static_cast<int>(scene_.lights.size());
         scene_.lights.push_back(std::move(light));
@@ -244,38 +245,39 @@ class Commit {
   SceneBox surroundings() const {
     Bounds bounds = scene_.accel->bounds();
     for (const Instance& instance : scene_.instances) {
-      const Mesh& mesh = *scene_.meshes[instance.mesh];
-      if (moves(scene_, instance) && !mesh.triangles().empty()) {
-        bounds.extend(swept(instance, mesh));
+      const Shape& shape = *scene_.shapes[instance.shape];
+      if (moves(scene_, instance) && shape.primitives() > 0) {
+        bounds.extend(swept(instance, shape));
       }
     }
     return SceneBox(bounds);
   }
 
   // Where an instance is at one time or another.
-  static Bounds swept(const Instance& instance, const Mesh& mesh) {
-    return instance.motion ? instance.motion->swept(mesh.bounds())
-                           : transformed(mesh.bounds(), instance.to_world);
+  static Bounds swept(const Instance& instance, const Shape& shape) {
+    return instance.motion ? instance.motion->swept(shape.bounds())
+                           : transformed(shape.bounds(), instance.to_world);
   }
 
   // Can a surface lie within the lamp's radius?
   bool surfaces_near(const LightDesc& lamp) const {
     const vec3 center(lamp.transform[3]);
     for (const Instance& instance : scene_.instances) {
-      const Mesh& mesh = *scene_.meshes[instance.mesh];
+      const Shape& shape = *scene_.shapes[instance.shape];
       const auto near = [&](const Bounds& bounds) {
         return length2(glm::clamp(center, bounds.lower, bounds.upper) - center) < sqr(lamp.radius);
       };
-      if (mesh.triangles().empty() || !near(swept(instance, mesh))) {
+      if (shape.primitives() == 0 || !near(swept(instance, shape))) {
         continue;
       }
-      if (moves(scene_, instance)) {
+      const Mesh* mesh = shape.mesh();
+      if (moves(scene_, instance) || !mesh) {
         return true;
       }
-      for (const Mesh::Triangle& triangle : mesh.triangles()) {
+      for (const Mesh::Triangle& triangle : mesh->triangles()) {
         Bounds bounds;
         for (const uint32_t v : triangle.v) {
-          bounds.extend(vec3(instance.to_world * vec4(mesh.positions()[v], 1.0f)));
+          bounds.extend(vec3(instance.to_world * vec4(mesh->positions()[v], 1.0f)));
         }
         if (near(bounds)) {
           return true;
@@ -287,15 +289,15 @@ class Commit {
 
   Scene& scene_;
   const CancelToken& cancel_;
-  std::map<std::string, uint32_t> mesh_index_;
+  std::map<std::string, uint32_t> shape_index_;
   std::map<std::string, ProgramsByRay> program_index_;
 };
 
 }  // namespace
 
 void SceneBuilder::set_mesh_motion(const std::string& key, std::vector<MeshKey> motion) {
-  const auto mesh = meshes_.find(key);
-  if (mesh == meshes_.end()) {
+  const auto mesh = shapes_.find(key);
+  if (mesh == shapes_.end()) {
     throw SceneError(key, "motion", "there is no such mesh");
   }
   mesh->second->set_motion(key, std::move(motion));
@@ -324,7 +326,7 @@ void SceneBuilder::set_shutter(std::vector<float> shutter) {
 }
 
 void SceneBuilder::remove(const std::string& key) {
-  meshes_.erase(key);
+  shapes_.erase(key);
   materials_.erase(key);
   images_.erase(key);
   instances_.erase(key);
@@ -340,7 +342,7 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
   scene->camera = *camera_;
   Commit commit(*scene, cancel);
   commit.add_materials(materials_, images_);
-  commit.add_meshes(meshes_);
+  commit.add_shapes(shapes_);
   commit.add_instances(instances_);
   scene->place_objects();
   std::shared_ptr<const Scene> last;

@@ -5,7 +5,10 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <variant>
 
+#include "janus/geometry/mesh.h"
+#include "janus/geometry/round_shape.h"
 #include "janus/render/scene.h"
 #include "janus/scene/description.h"
 #include "janus/util/cancel.h"
@@ -13,42 +16,50 @@
 
 namespace janus {
 
-// A mesh in the making: scenes that show it share one.
-class MeshItem {
+// A shape in the making: scenes that show it share one.
+class ShapeItem {
  public:
-  explicit MeshItem(MeshDesc desc) : desc_(std::move(desc)) {}
+  explicit ShapeItem(std::variant<MeshDesc, RoundDesc> desc) : desc_(std::move(desc)) {}
 
-  // Throws Error once the mesh is made.
+  // Throws Error once the shape is made.
   void set_motion(const std::string& key, std::vector<MeshKey> motion) {
     const std::lock_guard lock(mutex_);
-    if (mesh_) {
+    if (shape_) {
       throw SceneError(key, "motion", "the mesh is in use: set it again first");
     }
-    desc_.motion = std::move(motion);
+    std::visit([&](auto& desc) { desc.motion = std::move(motion); }, desc_);
   }
 
   // Made of the description when it is first asked for. May be called from any thread. Throws what
-  // the mesh throws.
-  std::shared_ptr<const Mesh> mesh(const std::string& key) {
+  // the shape throws.
+  std::shared_ptr<const Shape> shape(const std::string& key) {
     const std::lock_guard lock(mutex_);
-    if (!mesh_) {
-      mesh_ = std::make_shared<const Mesh>(key, std::move(desc_));
+    if (!shape_) {
+      if (auto* mesh = std::get_if<MeshDesc>(&desc_)) {
+        shape_ = std::make_shared<const Mesh>(key, std::move(*mesh));
+      } else {
+        shape_ = std::make_shared<const RoundShape>(key, std::move(std::get<RoundDesc>(desc_)));
+      }
     }
-    return mesh_;
+    return shape_;
   }
 
  private:
   std::mutex mutex_;
-  MeshDesc desc_;  // empty once the mesh is made
-  std::shared_ptr<const Mesh> mesh_;
+  std::variant<MeshDesc, RoundDesc> desc_;  // empty once the shape is made
+  std::shared_ptr<const Shape> shape_;
 };
 
 // Collects a description item by item and turns it into a Scene. Keys are the caller's; setting a
 // key again replaces the item. One thread at a time.
 class SceneBuilder {
  public:
+  // Meshes and what is round share their keys.
   void set_mesh(const std::string& key, MeshDesc desc) {
-    meshes_[key] = std::make_shared<MeshItem>(std::move(desc));
+    shapes_[key] = std::make_shared<ShapeItem>(std::move(desc));
+  }
+  void set_round(const std::string& key, RoundDesc desc) {
+    shapes_[key] = std::make_shared<ShapeItem>(std::move(desc));
   }
   void set_material(const std::string& key, MaterialDesc desc) {
     materials_[key] = std::move(desc);
@@ -71,15 +82,15 @@ class SceneBuilder {
   void remove(const std::string& key);
 
   // Validates everything and builds what rendering needs. Throws SceneError for what cannot be
-  // rendered, Cancelled; the rest is reported in Scene::diagnostics. Meshes that were set before
+  // rendered, Cancelled; the rest is reported in Scene::diagnostics. Shapes that were set before
   // the last commit, their hierarchies for rays among them, are shared with its scene, if that is
   // still in use: so a small change to a large scene takes little time.
   std::shared_ptr<const Scene> commit(const CancelToken& cancel) const;
 
  private:
   // Ordered maps: the scene, and so the image, does not depend on the order of the calls.
-  // Copies of a builder share the meshes, its heaviest part.
-  std::map<std::string, std::shared_ptr<MeshItem>> meshes_;
+  // Copies of a builder share the shapes, its heaviest part.
+  std::map<std::string, std::shared_ptr<ShapeItem>> shapes_;
   std::map<std::string, MaterialDesc> materials_;
   std::map<std::string, ImageDesc> images_;
   std::map<std::string, InstanceDesc> instances_;

@@ -36,7 +36,7 @@ void Scene::place_objects() {
       (camera.pixel_size > 0.0f ? camera.pixel_size : 1e-3f * (camera.top - camera.bottom));
   const bool parallel = camera.type == CameraType::Orthographic;
   surfaces.set_objects(
-      meshes, instances, view_of(camera),
+      shapes, instances, view_of(camera),
       {vec3(camera.transform[3]), parallel ? 0.0f : pixel, parallel ? pixel : 0.0f});
 }
 

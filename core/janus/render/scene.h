@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "janus/geometry/accel.h"
-#include "janus/geometry/mesh.h"
 #include "janus/geometry/surfaces.h"
 #include "janus/light/lamp_index.h"
 #include "janus/light/light_sampler.h"
@@ -42,7 +41,7 @@ class Scene {
   void turn_to_copy(SurfaceInteraction& hit, uint32_t copy) const {
     const Instance& instance = instances[copy];
     hit.instance = copy;
-    hit.material = instance.material(meshes[instance.mesh]->triangles()[hit.primitive].material);
+    hit.material = instance.material(shapes[instance.shape]->material(hit.primitive));
   }
   // What the surface does there, seen from the unit direction `view`.
   void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result) const {
@@ -89,7 +88,7 @@ class Scene {
     return static_cast<const MeshLight*>(lights[index].get());
   }
 
-  MeshList meshes;
+  ShapeList shapes;
   std::vector<Instance> instances;
   Surfaces surfaces;
   std::shared_ptr<const Accel> accel;

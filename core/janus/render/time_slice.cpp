@@ -32,10 +32,10 @@ bool any_instance_moves(const Scene& scene) {
   return std::ranges::any_of(scene.instances, [&](const auto& i) { return moves(scene, i); });
 }
 
-void move_meshes(Scene& slice, float time) {
-  for (std::shared_ptr<const Mesh>& mesh : slice.meshes) {
-    if (mesh->moves()) {
-      mesh = mesh->at(time);
+void move_shapes(Scene& slice, float time) {
+  for (std::shared_ptr<const Shape>& shape : slice.shapes) {
+    if (shape->moves()) {
+      shape = shape->at(time);
     }
   }
 }
@@ -65,7 +65,7 @@ bool renew_lights(Scene& slice, const Scene& scene) {
     }
     const auto index = static_cast<size_t>(instance.light);
     slice.lights[index] = std::make_shared<const MeshLight>(
-        *slice.accel, slice.surfaces, *slice.meshes[instance.mesh], slice.instances[i],
+        *slice.accel, slice.surfaces, *slice.shapes[instance.shape]->mesh(), slice.instances[i],
         static_cast<uint32_t>(i));
     renewed = true;
   }
@@ -75,19 +75,19 @@ bool renew_lights(Scene& slice, const Scene& scene) {
 }  // namespace
 
 bool moves(const Scene& scene, const Instance& instance) {
-  return instance.motion || scene.meshes[instance.mesh]->moves();
+  return instance.motion || scene.shapes[instance.shape]->moves();
 }
 
 bool moves(const Scene& scene) { return !scene.camera.motion.empty() || any_instance_moves(scene); }
 
 size_t slice_work(const Scene& scene) {
   size_t work = scene.instances.size();
-  for (const auto& mesh : scene.meshes) {
-    work += mesh->moves() ? mesh->triangles().size() : 0;
+  for (const auto& shape : scene.shapes) {
+    work += shape->moves() ? shape->primitives() : 0;
   }
   for (const Instance& instance : scene.instances) {
     const bool shines = instance.light >= 0 && moves(scene, instance);
-    work += shines ? scene.meshes[instance.mesh]->triangles().size() : 0;
+    work += shines ? scene.shapes[instance.shape]->primitives() : 0;
   }
   return work;
 }
@@ -99,10 +99,10 @@ std::shared_ptr<const Scene> at_time(const std::shared_ptr<const Scene>& scene, 
   slice->camera = camera_at(scene->camera, time);
   const bool instances_move = any_instance_moves(*scene);
   if (instances_move) {
-    move_meshes(*slice, time);
+    move_shapes(*slice, time);
     move_instances(*slice, time);
     slice->accel =
-        std::make_shared<const Accel>(slice->meshes, slice->instances, cancel, scene->accel.get());
+        std::make_shared<const Accel>(slice->shapes, slice->instances, cancel, scene->accel.get());
   }
   slice->place_objects();
   if (renew_lights(*slice, *scene)) {

@@ -51,9 +51,23 @@ struct MeshDesc {
   std::vector<MeshKey> motion{};
 };
 
+// Tubes along curves (hair, grass), or balls (a point cloud).
+struct RoundDesc {
+  std::string name;
+  std::vector<vec3> positions;  // of the curves' keys, or of the balls' centres
+  std::vector<float> radii;     // at each
+  // Where each curve begins among the positions, and where the last one ends. They go through their
+  // keys smoothly (Catmull-Rom), or straight. Empty: balls.
+  std::vector<uint32_t> curves;
+  bool straight = false;
+  std::vector<uint32_t> material_indices;  // per curve or ball, slot of the instance; empty: slot 0
+  std::vector<AttributeDesc> attributes;   // of points, and of curves as faces
+  std::vector<MeshKey> motion{};           // as a mesh's, without normals
+};
+
 struct InstanceDesc {
   std::string name;
-  std::string mesh;                                   // key
+  std::string mesh;                                   // key, or that of what is round
   mat4 transform = mat4(1.0f);                        // object to world
   std::vector<std::optional<std::string>> materials;  // keys by slot; nullopt: default surface
   RayMask visibility = kAllRays;                      // the rays that meet it

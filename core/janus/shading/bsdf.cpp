@@ -2,6 +2,7 @@
 #include "janus/shading/bsdf.h"
 
 #include "janus/shading/fresnel.h"
+#include "janus/shading/hair.h"
 #include "janus/shading/scatter.h"
 
 namespace janus {
@@ -33,7 +34,7 @@ float refraction_jacobian(vec3 wo, vec3 wi, vec3 n, float eta2_light_over_camera
     }
     const LobeEval e = evaluate_lobe(lobe, ng, d);
     sum.f += e.f;
-    if (!is_ggx(lobe.type)) {
+    if (is_diffuse(lobe.type)) {
       sum.diffuse += e.f;
     }
     sum.pdf_radiance += pmf(lobe, grazing_o) * e.pdf_radiance;
@@ -71,11 +72,15 @@ float Bsdf::albedo() const {
 }
 
 float BsdfView::peak() const {
+  constexpr float kUnknown = 1e15f;
   if (reshading_) {
-    return 1e15f;  // nobody knows, and roulette must not end what another view shows
+    return kUnknown;  // and roulette must not end what another view shows
   }
   float sum = 0.0f;
   for (const Lobe& lobe : lobes_) {
+    if (is_fiber(lobe.type)) {
+      return kUnknown;
+    }
     if (!is_delta(lobe)) {
       const float facets = is_ggx(lobe.type) ? 0.25f / sqr(lobe.alpha) : 0.0f;  // D / 4
       sum += max_component(lobe.weight) * kInvPi * (1.0f + facets);
@@ -138,6 +143,9 @@ BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
   if (reshading_ && !alike(*reshading_, wo, wi)) {
     reshade(d, sum);
   }
+  if (one_way_) {
+    sum.pdf_importance = 0.0f;
+  }
   if (mode == TransportMode::Importance) {
     const float adjoint = std::abs(d.wo_ng / d.wi_ng);
     sum.f *= adjoint;
@@ -197,7 +205,11 @@ std::optional<BsdfSample> BsdfView::sample(vec3 from, float u_lobe, vec2 u,
 std::optional<BsdfSample> BsdfView::sample_direction(const Lobe& lobe, vec3 from, float u_event,
                                                      vec2 u, TransportMode mode) const {
   std::optional<BsdfSample> sample;
-  const auto to = sample_lobe(lobe, ng_, from, u_event, u, mode);
+  if (one_way_ && mode == TransportMode::Importance) {
+    return sample;
+  }
+  const auto to = is_fiber(lobe.type) ? sample_fiber(lobe, ng_, ns_, from, u_event, u)
+                                      : sample_lobe(lobe, ng_, from, u_event, u, mode);
   if (!to) {
     return sample;
   }
@@ -236,7 +248,7 @@ std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen,
   // The two walks measure their discrete event against different solid angles: beside the choice of
   // the lobe, the ratio of the densities is the jacobian.
   const float own = chosen * event->probability;
-  float other = event->one_way ? 0.0f : pmf(lobe, grazing(to_ng)) * event->probability;
+  float other = event->one_way || one_way_ ? 0.0f : pmf(lobe, grazing(to_ng)) * event->probability;
   Rgb color = event->color;
   if (reshading_ && !alike(*reshading_, from, to)) {
     reshade_event(lobe, from, u, mode, to, event->probability, color, other);

@@ -64,8 +64,9 @@ bool may_transmit(const Reshading& reshading);
 // side; each density is that of the lobes seen from where its walk comes.
 class BsdfView {
  public:
-  BsdfView(std::span<const Lobe> lobes, vec3 ng, vec3 ns, const Reshading* reshading = nullptr)
-      : lobes_(lobes), ng_(ng), ns_(ns), reshading_(reshading) {}
+  BsdfView(std::span<const Lobe> lobes, vec3 ng, vec3 ns, const Reshading* reshading = nullptr,
+           bool one_way = false)
+      : lobes_(lobes), ng_(ng), ns_(ns), reshading_(reshading), one_way_(one_way) {}
 
   // True if some lobe is not a delta: the vertex can be joined to another one.
   bool connectible() const;
@@ -95,6 +96,8 @@ class BsdfView {
 
   std::span<const Lobe> lobes() const { return lobes_; }
   vec3 ng() const { return ng_; }
+  vec3 ns() const { return ns_; }
+  bool one_way() const { return one_way_; }
 
  private:
   std::optional<BsdfSample> sample_direction(const Lobe& lobe, vec3 from, float u_event, vec2 u,
@@ -110,6 +113,7 @@ class BsdfView {
   std::span<const Lobe> lobes_;
   vec3 ng_, ns_;
   const Reshading* reshading_;
+  bool one_way_;
 };
 
 inline constexpr int kMaxLobes = 8;
@@ -121,6 +125,7 @@ class Bsdf {
   Bsdf(const Bsdf& other) { *this = other; }
   Bsdf& operator=(const Bsdf& other) {
     count_ = other.count_;
+    one_way_ = other.one_way_;
     std::copy_n(other.lobes_, count_, lobes_);
     return *this;
   }
@@ -133,7 +138,13 @@ class Bsdf {
     lobes_[count_++] = lobe;
     return true;
   }
-  void clear() { count_ = 0; }
+  void clear() { count_ = 0, one_way_ = false; }
+
+  // Of a surface where light subpaths end, so that their density, here and behind, is nought. Light
+  // goes through a fibre in one event, at the point which the camera side sees: from the light's
+  // side that point is behind the fibre, where no ray can find it.
+  bool one_way() const { return one_way_; }
+  void set_one_way(bool one_way) { one_way_ = one_way; }
 
   // An estimate of the share of light that is scattered.
   float albedo() const;
@@ -142,7 +153,7 @@ class Bsdf {
   void finish();
 
   BsdfView view(vec3 ng, vec3 ns, const Reshading* reshading = nullptr) const {
-    return {lobes(), ng, ns, reshading};
+    return {lobes(), ng, ns, reshading, one_way_};
   }
   BsdfView view(vec3 n) const { return view(n, n); }
   std::span<const Lobe> lobes() const { return {lobes_, static_cast<size_t>(count_)}; }
@@ -150,6 +161,7 @@ class Bsdf {
 
  private:
   int count_ = 0;
+  bool one_way_ = false;
   Lobe lobes_[kMaxLobes];  // not initialised beyond the count
 };
 

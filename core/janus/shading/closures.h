@@ -12,7 +12,7 @@ struct Closure {
   uint16_t share;     // its part of Mix and Add
   uint32_t operands;  // one for each input of the node's declaration
   uint16_t normal;    // its own normal, on the viewer's side; kNoNormal: that of the surface
-  bool multiscatter;  // the node's distribution
+  uint8_t variant;  // of the node's first setting: the place of its value among the items
 
   static constexpr uint16_t kNoNormal = UINT16_MAX;
 
@@ -33,7 +33,8 @@ class ClosureArguments {
         bumped_(bumped) {}
 
   float share() const { return registers_[closure_.share]; }
-  bool multiscatter() const { return closure_.multiscatter; }
+  int variant() const { return closure_.variant; }
+  bool multiscatter() const { return variant() == 0; }  // of a distribution
   vec3 normal() const { return normal_; }
   bool bumped() const { return bumped_; }
   // By the position of the input in the declaration. What is not finite counts as 0.
@@ -58,10 +59,12 @@ class ClosureArguments {
 };
 
 extern const ClosureDecl kDiffuseClosure, kGlossyClosure, kGlassClosure, kRefractionClosure,
-    kTranslucentClosure, kTransparentClosure, kHoldoutClosure, kEmissionClosure, kPrincipledClosure;
+    kTranslucentClosure, kTransparentClosure, kHoldoutClosure, kEmissionClosure, kPrincipledClosure,
+    kHairClosure, kPrincipledHairClosure;
 
 // The inputs of the closures, in the order in which their functions read them.
 extern const std::span<const SocketDecl> kDiffuseInputs, kGlossyInputs, kGlassInputs,
-    kRefractionInputs, kTranslucentInputs, kTransparentInputs, kEmissionInputs, kPrincipledInputs;
+    kRefractionInputs, kTranslucentInputs, kTransparentInputs, kEmissionInputs, kPrincipledInputs,
+    kHairInputs, kPrincipledHairInputs;
 
 }  // namespace janus

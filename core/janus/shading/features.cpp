@@ -14,7 +14,11 @@ constexpr float kSmoothAlpha = 0.075f;
 // Of the weight, above which rough lobes are what is looked at.
 constexpr float kRoughShare = 0.25f;
 
-vec3 facing_normal(const Lobe& lobe, vec3 ng, vec3 wo) {
+// `ns`: the surface's own, on the side of wo, which is that of fibres.
+vec3 facing_normal(const Lobe& lobe, vec3 ng, vec3 ns, vec3 wo) {
+  if (is_fiber(lobe.type)) {
+    return ns;
+  }
   const bool back = dot(wo, ng) < 0.0f;
   const vec3 n = back ? -lobe.normal : lobe.normal;
   return is_ggx(lobe.type) ? valid_normal(n, back ? -ng : ng, wo) : n;
@@ -26,7 +30,7 @@ vec3 mean_normal(const BsdfView& bsdf, vec3 ns, vec3 wo, Count&& count) {
   vec3 sum(0.0f);
   for (const Lobe& lobe : bsdf.lobes()) {
     if (count(lobe)) {
-      sum += std::abs(average(lobe.weight)) * facing_normal(lobe, bsdf.ng(), wo);
+      sum += std::abs(average(lobe.weight)) * facing_normal(lobe, bsdf.ng(), ns, wo);
     }
   }
   const float length = glm::length(sum);
@@ -40,7 +44,7 @@ vec3 average_normal(const BsdfView& bsdf, vec3 ns, vec3 wo) {
 }
 
 vec3 diffuse_normal(const BsdfView& bsdf, vec3 ns, vec3 wo) {
-  return mean_normal(bsdf, ns, wo, [](const Lobe& lobe) { return !is_ggx(lobe.type); });
+  return mean_normal(bsdf, ns, wo, [](const Lobe& lobe) { return is_diffuse(lobe.type); });
 }
 
 SurfaceFeatures surface_features(const BsdfView& bsdf, Rgb transparency, vec3 ns, vec3 wo) {
@@ -50,9 +54,9 @@ SurfaceFeatures surface_features(const BsdfView& bsdf, Rgb transparency, vec3 ns
   features.normal = sum * ns;
   for (const Lobe& lobe : bsdf.lobes()) {
     const float weight = std::abs(average(lobe.weight));
-    features.normal += weight * facing_normal(lobe, bsdf.ng(), wo);
+    features.normal += weight * facing_normal(lobe, bsdf.ng(), ns, wo);
     sum += weight;
-    const SurfaceColor color = surface_color(lobe, bsdf.ng(), wo);
+    const SurfaceColor color = surface_color(lobe, bsdf.ng(), ns, wo);
     const Rgb albedo = color.diffuse + color.glossy + color.transmission;
     if (is_ggx(lobe.type) && lobe.alpha <= kSmoothAlpha) {
       features.smooth += albedo;

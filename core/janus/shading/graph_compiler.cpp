@@ -124,6 +124,9 @@ Value GraphCompiler::implicit(const SocketDecl& socket, uint16_t at) {
       return emit(kPosition, {}, 0, at);
     case Implicit::Uv:
       return emit(kAttribute, {}, attribute("uv:"), at);
+    case Implicit::Along:
+      return emit(kAlong, {}, 0, at);
+    case Implicit::Strand:
     case Implicit::Value:
       break;
   }
@@ -156,6 +159,9 @@ Value GraphCompiler::input(const NodeReader& reader, std::string_view identifier
       }
     }
     return implicit(*socket, at);
+  }
+  if (socket->implicit == Implicit::Strand) {
+    return emit(kStrand, {constant(reader.color(identifier), socket->type)}, 0, at);
   }
   if (reader.omitted(identifier)) {
     return implicit(*socket, at);

@@ -68,7 +68,8 @@ class GraphCompiler {
     const ClosureDecl* decl;
     Value share;
     std::vector<Value> operands;
-    bool has_normal, multiscatter;
+    uint8_t variant;  // see Closure
+    bool has_normal;
     Value normal;
   };
   using NodeAt = std::pair<const Node*, uint16_t>;

@@ -13,8 +13,13 @@ namespace janus {
 
 void GraphCompiler::closure(const NodeReader& reader, Value share) {
   require(reader.node(), 0);
-  ClosureStep step{reader.decl().closure, share, {}, false, false, share};
-  step.multiscatter = reader.property("distribution", "MULTI_GGX") == "MULTI_GGX";
+  ClosureStep step{reader.decl().closure, share, {}, 0, false, share};
+  if (!reader.decl().settings.empty()) {
+    const EnumDecl& setting = reader.decl().settings.front();
+    const auto chosen = std::ranges::find(
+        setting.items, reader.property(setting.property, setting.items.front()));
+    step.variant = static_cast<uint8_t>(chosen - setting.items.begin());
+  }
   for (const SocketDecl& socket : reader.decl().inputs) {
     if (socket.implicit == Implicit::Normal) {
       step.operands.push_back(constant(vec3(0.0f), SocketType::Vector));
@@ -31,6 +36,7 @@ void GraphCompiler::closure(const NodeReader& reader, Value share) {
     return x && x->x == input.neutral;
   };
   const ClosureTraits& traits = step.decl->traits;
+  program_.fibers |= traits.fibers;
   program_.transmits |= traits.transmits && !neutral(traits.transmission);
   for (const LeftOut& left_out : step.decl->left_out) {
     if (reader.link(left_out.input) || reader.color(left_out.input) != Rgb(left_out.neutral)) {
@@ -65,7 +71,7 @@ void GraphCompiler::add_constant(const NodeReader& reader, const ClosureStep& st
     registers.insert(registers.end(), {x.x, x.y, x.z});
     return static_cast<uint16_t>(registers.size() - 3);
   };
-  const Closure closure{step.decl, add(step.share), 0, Closure::kNoNormal, step.multiscatter};
+  const Closure closure{step.decl, add(step.share), 0, Closure::kNoNormal, step.variant};
   for (const Value operand : step.operands) {
     places.push_back(add(operand));
   }
@@ -214,7 +220,7 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
     }
     const auto normal = static_cast<uint16_t>(place[step.normal.index]);
     program_.closures.push_back({step.decl, static_cast<uint16_t>(place[step.share.index]), first,
-                                 step.has_normal ? normal : Closure::kNoNormal, step.multiscatter});
+                                 step.has_normal ? normal : Closure::kNoNormal, step.variant});
   }
 }
 

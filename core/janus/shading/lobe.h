@@ -11,6 +11,11 @@ enum class LobeType : uint8_t {
   Diffuse,      // Lambert
   OrenNayar,    // rough diffuse (Fujii's Oren-Nayar with multiple scattering)
   Translucent,  // Lambert to the other side
+  // Light on a fibre, seen as a whole; all take the whole sphere. See hair.h.
+  HairReflection,    // Hair BSDF, Reflection
+  HairTransmission,  // and Transmission
+  ChiangReflection,  // Principled Hair BSDF of Chiang's model: R,
+  ChiangRest,        // and TT, TRT, and all after
   Glossy,       // GGX reflection without Fresnel term
   Metal,        // GGX reflection, Fresnel term of Schlick
   Specular,     // GGX reflection with the Fresnel term of a dielectric
@@ -22,26 +27,38 @@ enum class LobeType : uint8_t {
 // it can be kept in a cache. Made by the functions below; the normal is set where it is placed.
 struct Lobe {
   Rgb weight;   // colour times the closure's share in Mix and Add
-  Rgb color;    // Metal: F0; Glass: tint; OrenNayar: albedo; Glossy, Specular: multiscatter tint
-  vec3 normal;  // shading normal on the front side (the side of +Ng), unit
-  float alpha;  // GGX width; 0: perfectly smooth, a delta. Layered lobes: of the layer above
+  // Metal: F0; Glass: tint; OrenNayar: albedo; Glossy, Specular: multiscatter tint; Chiang:
+  // absorption by radius
+  Rgb color;
+  // Shading normal on the front side (the side of +Ng), unit. Fibres: their direction, unit.
+  vec3 normal;
+  // GGX width; 0: perfectly smooth, a delta. Layered lobes: of the layer above. Fibres: how wide
+  // light spreads along them, Chiang: as a variance.
+  float alpha;
   float ior;    // index of the back side relative to the front side; Layered: of the layer above
-  float sigma;  // OrenNayar: roughness
+  float sigma;  // OrenNayar: roughness. Fibres: how wide light spreads around them
+  float tilt;   // fibres: of their scales, radians
   // Probability of choosing this lobe when sampling: from pmf_normal for a walk that arrives along
   // Ng to pmf_grazing (see Bsdf::finish).
   float pmf_normal, pmf_grazing;
   LobeType type;
-  bool multiscatter;       // GGX with Cycles' energy scale; Layered: the layer above
-  bool layered;            // attenuated by the reflectance of a Specular layer above
-  bool tinted_reflection;  // Glass: `color` tints reflections too
-  bool bumped;             // the normal is the closure's own, not the surface's
+  bool multiscatter : 1;       // GGX with Cycles' energy scale; Layered: the layer above
+  bool layered : 1;            // attenuated by the reflectance of a Specular layer above
+  bool tinted_reflection : 1;  // Glass: `color` tints reflections too
+  bool bumped : 1;             // the normal is the closure's own, not the surface's
 };
+static_assert(sizeof(Lobe) == 64);
 
 // GGX lobes are a delta when alpha is 0.
 inline bool is_ggx(LobeType type) { return type >= LobeType::Glossy; }
+inline bool is_fiber(LobeType type) {
+  return type >= LobeType::HairReflection && type <= LobeType::ChiangRest;
+}
+inline bool is_diffuse(LobeType type) { return type <= LobeType::Translucent; }
 inline bool is_delta(const Lobe& lobe) { return is_ggx(lobe.type) && lobe.alpha == 0.0f; }
 inline bool transmits(const Lobe& lobe) {
-  return lobe.type == LobeType::Translucent || lobe.type >= LobeType::Glass;
+  return lobe.type >= LobeType::Glass || lobe.type == LobeType::Translucent ||
+         (is_fiber(lobe.type) && lobe.type != LobeType::HairReflection);
 }
 
 // What the compiler makes closures of. `alpha` is the square of a node's roughness; what Cycles

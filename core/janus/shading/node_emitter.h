@@ -5,7 +5,8 @@
 // Attributes are asked for by key. Of a mesh: "uv:NAME" (a UV map; without a name, the active one),
 // "attribute:NAME", "color:" (the active colours), "generated", "normal" (of the vertices),
 // "tangent:NAME" (of a UV map; its handedness is the fourth channel), "tangent_sign:NAME" (that
-// alone), "pointiness", "random_per_island". Of an instance: "object:NAME", "instancer:NAME"
+// alone), "pointiness", "random_per_island", "curve_intercept", "curve_length", "curve_radius" (of
+// curves). Of an instance: "object:NAME", "instancer:NAME"
 // (properties), "dupli_generated", "dupli_uv" (of what it was made from).
 #pragma once
 

@@ -28,6 +28,8 @@ enum class Implicit {
   Normal,  // the shading normal, on the viewer's side
   Uv,      // the active UV map
   Position,
+  Along,   // of a fibre, its direction; elsewhere that of a triangle
+  Strand,  // a number of the curve's own, in [0, 1]; elsewhere the default
 };
 
 struct SocketDecl {
@@ -81,7 +83,7 @@ struct ClosureTraits {
     int index = -1;
     float neutral = 0.0f;
   };
-  bool emits = false, transparent = false, transmits = false, holds_out = false;
+  bool emits = false, transparent = false, transmits = false, holds_out = false, fibers = false;
   int lobes = 0;  // at most
   // Which may make it dark, opaque or reflecting after all.
   Input emission{}, alpha{}, transmission{};

@@ -3,6 +3,7 @@
 // What many nodes, and inputs without a link, read of the point.
 #pragma once
 
+#include "janus/math/hash.h"
 #include "janus/shading/operation.h"
 
 namespace janus {
@@ -17,6 +18,20 @@ inline vec3 read_parametric(const Context& c) {
   return vec3(1.0f - b.x - b.y, b.x, 0.0f);
 }
 
+// Not of unit length.
+inline vec3 read_along(const Context& c) {
+  return c.point.on_curve ? c.point.edge_u : c.point.edge_v;
+}
+
+// Cycles' hash of the curve.
+inline float read_strand(const Context& c, float elsewhere) {
+  return c.point.on_curve
+             ? static_cast<float>(jenkins_hash(c.point.triangle.face, 2)) / 4294967295.0f
+             : elsewhere;
+}
+
+inline constexpr Operation kAlong = at_point<&read_along>;
+inline constexpr Operation kStrand = at_point<&read_strand>;
 inline constexpr Operation kPosition = at_point<&read_position>;
 inline constexpr Operation kFacingNormal = by_side<&read_normal>;
 inline constexpr Operation kAttribute = at_point<&read_attribute>;  // `data`: its slot

@@ -81,6 +81,7 @@ class Program {
   bool varying_emission = false, varying_transparency = false, varying_holdout = false;
   std::vector<float> filter_widths;  // pixels to the points beside the point that bump reads
   bool tangents = false;             // some attribute is a tangent
+  bool fibers = false;               // some closure is one of hair
   Dependence dependence = Dependence::None;
   bool transmits = false;  // some closure scatters to the other side, or may
 

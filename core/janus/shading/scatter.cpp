@@ -4,6 +4,7 @@
 #include "janus/shading/albedo.h"
 #include "janus/shading/diffuse.h"
 #include "janus/shading/fresnel.h"
+#include "janus/shading/hair.h"
 #include "janus/shading/microfacet.h"
 
 namespace janus {
@@ -243,8 +244,11 @@ vec3 valid_normal(vec3 n, vec3 ng, vec3 wo) {
 }
 
 LobeEval evaluate_lobe(const Lobe& lobe, vec3 ng, const Directions& d) {
-  if (!is_ggx(lobe.type)) {
+  if (is_diffuse(lobe.type)) {
     return evaluate_diffuse(lobe, ng, d);
+  }
+  if (is_fiber(lobe.type)) {
+    return evaluate_fiber(lobe, d);
   }
   if (!d.same_side() && !transmits(lobe)) {
     return {};
@@ -270,7 +274,7 @@ std::optional<vec3> sample_lobe(const Lobe& lobe, vec3 ng, vec3 from, float u_ev
     const float cos = dot(to, normal);
     return transmitted ? cos < 0.0f : cos > 0.0f;
   };
-  if (!is_ggx(lobe.type)) {
+  if (is_diffuse(lobe.type)) {
     const bool transmitted = lobe.type == LobeType::Translucent;
     vec3 axis = ng_from;
     if (mode == TransportMode::Radiance) {
@@ -363,6 +367,11 @@ float estimated_albedo(const Lobe& lobe, float cos) {
       const GlassEvents events(lobe, cos, std::max(lobe.ior, 1.0f / lobe.ior));
       return average(lobe.weight * (events.reflected + events.transmitted));
     }
+    case LobeType::ChiangReflection:
+      return average(lobe.weight) * fresnel_dielectric(cos, lobe.ior);
+    case LobeType::ChiangRest:  // most of it goes through once
+      return average(lobe.weight * glm::exp(-2.0f * lobe.color)) *
+             sqr(1.0f - fresnel_dielectric(cos, lobe.ior));
     default:
       // Light walks arrive at grazing angles without the loss that the camera side sees.
       return average(lobe.weight) *

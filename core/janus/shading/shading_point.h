@@ -50,14 +50,16 @@ struct ShadingPoint {
   // By the program's slot; null where the mesh has none of that name.
   const AttributeDesc* const* attributes;
   float material_index;
-  // Edges of the triangle in the world, and the size of a pixel there: see shifted().
+  // Edges of the triangle in the world (on curves: along it, and nothing), and the size of a pixel
+  // there: see shifted().
   vec3 edge_u, edge_v;
   float footprint;  // metres
   // The interpolated normal in object space, as long as it comes out: what tangents go with.
   vec3 object_normal;
   // For shifted(): the normals of the corners in object space, or nothing.
   vec3 corner_normals[3];
-  bool moved;  // by shifted()
+  bool moved;     // by shifted()
+  bool on_curve;  // else on a triangle or a ball, or nowhere
 
   bool backfacing() const { return dot(view, ng) < 0.0f; }
   // Cycles' normals look at the viewer.

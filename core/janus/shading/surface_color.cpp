@@ -3,16 +3,23 @@
 
 #include "janus/shading/albedo.h"
 #include "janus/shading/fresnel.h"
+#include "janus/shading/hair.h"
 #include "janus/shading/scatter.h"
 
 namespace janus {
 
-SurfaceColor surface_color(const Lobe& lobe, vec3 front, vec3 wo) {
+SurfaceColor surface_color(const Lobe& lobe, vec3 front, vec3 ns, vec3 wo) {
   SurfaceColor color;
+  if (is_fiber(lobe.type)) {
+    const bool reflects =
+        lobe.type == LobeType::HairReflection || lobe.type == LobeType::ChiangReflection;
+    (reflects ? color.glossy : color.transmission) = fiber_color(lobe, ns, wo);
+    return color;
+  }
   const bool back = dot(wo, front) < 0.0f;
   const vec3 ng = back ? -front : front;
   const vec3 n = back ? -lobe.normal : lobe.normal;
-  if (!is_ggx(lobe.type)) {
+  if (is_diffuse(lobe.type)) {
     color.diffuse = lobe.weight * (lobe.layered ? layer_transmittance(lobe, dot(wo, n)) : 1.0f);
     return color;
   }
@@ -51,7 +58,7 @@ SurfaceColor surface_color(const Lobe& lobe, vec3 front, vec3 wo) {
 SurfaceColor surface_color(const BsdfView& bsdf, vec3 wo) {
   SurfaceColor sum;
   for (const Lobe& lobe : bsdf.lobes()) {
-    const SurfaceColor color = surface_color(lobe, bsdf.ng(), wo);
+    const SurfaceColor color = surface_color(lobe, bsdf.ng(), bsdf.ns(), wo);
     sum.diffuse += color.diffuse;
     sum.glossy += color.glossy;
     sum.transmission += color.transmission;

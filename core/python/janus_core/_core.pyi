@@ -65,7 +65,8 @@ class Scene:
         """What could not be rendered as asked."""
     @property
     def counts(self) -> Counts:
-        """Numbers of meshes, instances, triangles (with instances), materials, lights (sources
+        """Numbers of meshes, instances, triangles and pieces of curves or points
+        (`round`; both with instances), materials, lights (sources
         with a sampling of their own: lamps, emitting objects, the world), and meshes_built: those
         that are not shared with the scene before."""
 
@@ -114,6 +115,35 @@ class SceneBuilder:
         float[N] or float[N, 1 to 4]; "pointiness" (which needs "normal") and "random_per_island"
         may come without values, and are computed from edges: int[E, 2], pairs of positions.
         """
+    def set_curves(
+        self,
+        key: str,
+        *,
+        name: str,
+        positions: npt.ArrayLike,
+        radii: npt.ArrayLike,
+        curves: npt.ArrayLike,
+        straight: bool = False,
+        material_indices: npt.ArrayLike | None = None,
+        attributes: Sequence[Mapping[str, Any]] = ...,
+    ) -> None:
+        """Hair: tubes along curves, which instances name as they name meshes.
+
+        positions: float[N, 3] and radii: float[N] of the keys, through which curves go smoothly
+        (Catmull-Rom) or straight. curves: int[M + 1], where each begins among the keys, and where
+        the last one ends. material_indices: int[M] (None: slot 0). attributes: as those of a mesh,
+        of points (POINT) and curves (FACE). Tubes are seen from outside alone, as in Cycles.
+        """
+    def set_points(
+        self,
+        key: str,
+        *,
+        name: str,
+        positions: npt.ArrayLike,
+        radii: npt.ArrayLike,
+        attributes: Sequence[Mapping[str, Any]] = ...,
+    ) -> None:
+        """A point cloud: balls, likewise."""
     def set_material(
         self,
         key: str,
@@ -294,7 +324,7 @@ class SceneBuilder:
     def set_mesh_motion(
         self, key: str, *, positions: npt.ArrayLike, normals: npt.ArrayLike | None = None
     ) -> None:
-        """How a mesh that has been set changes its form while the shutter is open.
+        """How a mesh, or curves or points, that has been set changes its form while the shutter is open.
 
         positions: float[K, N, 3] at K even times from opening to closing. normals: float[K, N or C,
         3], of vertices or corners, whichever it has; None: it has none.

@@ -7,6 +7,7 @@ class Counts(TypedDict):
     meshes: int
     instances: int
     triangles: int
+    round: int
     lights: int
     materials: int
     meshes_built: int

@@ -24,10 +24,12 @@ from . import Error, IoError, RenderSettings, Scene, SceneBuilder, __version__
 __all__ = ["CapturingBuilder", "load"]
 
 FORMAT = "janus scene"
-VERSION = 8  # raised when an older reader could not understand a newer file
+VERSION = 9  # raised when an older reader could not understand a newer file
 
 _KINDS = (
     "mesh",
+    "curves",
+    "points",
     "material",
     "image",
     "instance",
@@ -44,8 +46,11 @@ _ARRAYS = {
         "faces",
         "edges",
     ),
+    "curves": ("positions", "radii", "curves", "material_indices"),
+    "points": ("positions", "radii"),
     "image": ("pixels",),
 }
+_SHAPES = ("mesh", "curves", "points")  # one has a key
 _TRANSFORMS = "instance_transforms"  # one array for all, as there can be very many
 _MOTIONS = ("mesh", "instance", "camera")  # what can move while the shutter is open
 _CAMERA = ""  # its key there
@@ -69,6 +74,14 @@ class CapturingBuilder:
     def set_mesh(self, key: str, **arguments: Any) -> None:
         """As SceneBuilder.set_mesh."""
         self._set("mesh", key, arguments)
+
+    def set_curves(self, key: str, **arguments: Any) -> None:
+        """As SceneBuilder.set_curves."""
+        self._set("curves", key, arguments)
+
+    def set_points(self, key: str, **arguments: Any) -> None:
+        """As SceneBuilder.set_points."""
+        self._set("points", key, arguments)
 
     def set_material(self, key: str, **arguments: Any) -> list[str]:
         """As SceneBuilder.set_material."""
@@ -147,7 +160,9 @@ class CapturingBuilder:
     def _set(self, kind: str, key: str, arguments: dict[str, Any]) -> Any:
         result = getattr(self._builder, f"set_{kind}")(key, **arguments)
         self._items[kind][key] = _own(arguments)
-        self._motion.get(kind, {}).pop(key, None)  # of what was there before
+        # Of what was there before; curves and points have theirs among meshes.
+        for moves in self._motion.values() if kind in _SHAPES else [self._motion.get(kind, {})]:
+            moves.pop(key, None)
         return result
 
     def _describe(self) -> tuple[dict[str, Any], dict[str, np.ndarray]]:

@@ -19,7 +19,7 @@ double brute_force(const Scene& scene, const Ray& ray, bool& rim) {
   double nearest = INFINITY;
   const dvec3 o(ray.origin), d(ray.direction);
   for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = *scene.meshes[instance.mesh];
+    const Mesh& mesh = *scene.shapes[instance.shape]->mesh();
     const glm::dmat4 m(instance.to_world);
     const auto at = [&](uint32_t v) { return dvec3(m * glm::dvec4(mesh.positions()[v], 1.0)); };
     for (const Mesh::Triangle& t : mesh.triangles()) {
@@ -124,7 +124,7 @@ TEST(Accel, OpaqueAndTransparentInstances) {
 
   std::vector<Instance> instances = scene->instances;
   instances[1].opaque = instances[2].opaque = false;
-  const Accel accel(scene->meshes, instances, CancelToken());
+  const Accel accel(scene->shapes, instances, CancelToken());
   EXPECT_TRUE(accel.intersect_transparent(down(9), kRay, hit) && hit.instance == 2);
   EXPECT_TRUE(accel.intersect_transparent(down(1.5f), kRay, hit) && hit.instance == 1);
   EXPECT_FALSE(accel.intersect_transparent(down(0.5f), kRay, hit));
@@ -140,7 +140,7 @@ TEST(Accel, OpaqueAndTransparentInstances) {
 }
 
 TEST(Accel, InstancesShareTheirMesh) {
-  const MeshList meshes{std::make_shared<const Mesh>("ball", ball(1, 64, true))};
+  const ShapeList shapes{std::make_shared<const Mesh>("ball", ball(1, 64, true))};
   const auto bytes = [&](int count) {
     std::vector<Instance> instances(count);
     for (int i = 0; i < count; ++i) {
@@ -148,7 +148,7 @@ TEST(Accel, InstancesShareTheirMesh) {
       instances[i].normal_to_world = glm::transpose(glm::inverse(mat3(instances[i].to_world)));
       instances[i].materials = {0};
     }
-    const Accel accel(meshes, instances, CancelToken());
+    const Accel accel(shapes, instances, CancelToken());
     for (const int i : {0, count / 2, count - 1}) {
       SurfaceInteraction hit;
       EXPECT_TRUE(accel.intersect_any(Ray{vec3(3.0f * i, 0, 9), vec3(0, 0, -1)}, hit));
@@ -157,7 +157,7 @@ TEST(Accel, InstancesShareTheirMesh) {
     return accel.bytes();
   };
   const size_t one = bytes(1);
-  EXPECT_GT(one, meshes[0]->triangles().size() * 32);
+  EXPECT_GT(one, shapes[0]->primitives() * 32);
   EXPECT_LT((bytes(5000) - one) / 4999, 2048u);
 }
 
@@ -178,7 +178,7 @@ class Offsets : public ::testing::TestWithParam<std::tuple<float, float, bool>> 
     return mesh;
   }
   SurfaceInteraction random_point(const Scene& scene) {
-    const auto count = static_cast<float>(scene.meshes[0]->triangles().size());
+    const auto count = static_cast<float>(scene.shapes[0]->primitives());
     const auto triangle = static_cast<uint32_t>(random_.next() * count);
     return scene.accel->surface_point(0, triangle, square_to_triangle(random_.next_2d()));
   }

@@ -73,6 +73,9 @@ const AgreementScene kScenes[] = {
            .camera({0, 0, 2}, {0, 0, -1}, 0.3f);
      },
      true, 48},
+    {"hair",  // where light walks end
+     [] { return strands_in(room()).light("l", area_light({0, 0, 0.95f}, {0, 0, 0}, 0.9f, 20)); },
+     false, 64},
     {"mixture",  // delta and smooth lobes at one point
      [] {
        return room()

@@ -45,6 +45,16 @@ const LengthCase kCases[] = {
            .add("ball", ball(0.5f, 10, true), diffuse(Rgb(0.9f)), translation({0.2f, 0, 0}))
            .light("l", area_light({1.7f, -0.3f, 0.2f}, {0, 0, -0.4f}, 0.8f, 30));
      }},
+    // Tubes and balls, seen from outside alone.
+    {"round",
+     [] {
+       return plates()
+           .add("tube", strand({{-0.9f, 0, -0.2f}, {0, 0.2f, 0.2f}, {0.9f, 0, -0.2f}}, 0.25f),
+                diffuse(Rgb(0.9f)))
+           .add("balls", balls({{0.2f, 0.1f, -0.6f}, {-0.7f, 0.2f, 0.5f}}, 0.2f),
+                diffuse(Rgb(0.6f, 0.9f, 0.7f)))
+           .light("l", area_light({1.7f, -0.3f, 0.2f}, {0, 0, -0.4f}, 0.8f, 30));
+     }},
     // Crossings are in no density, whichever walk passes them.
     {"panes",
      [] {

@@ -90,6 +90,10 @@ const OracleScene kScenes[] = {
                 translation({0, 0.9f, 0}) * rotation({1, 0, 0}, 1.4f))
            .light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.6f, 20));
      }},
+    {"hair",  // where light walks end
+     [] {
+       return strands_in(open_box()).light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.6f, 20));
+     }},
     {"principled",
      [] {
        const auto ball_of = [](SceneKit& kit, const char* name, vec3 p,

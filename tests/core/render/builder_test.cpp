@@ -99,7 +99,7 @@ TEST(Builder, LeavesOutBrokenTriangles) {
   MeshDesc mesh = plane(1, 1);
   add_quad(mesh, {0, 0, 1}, {1, 0, NAN}, {1, 1, 1}, {0, INFINITY, 1});
   const auto scene = with_mesh(mesh).build();
-  EXPECT_EQ(scene->meshes[0]->triangles().size(), 2u);
+  EXPECT_EQ(scene->shapes[0]->primitives(), 2u);
   EXPECT_TRUE(warned(*scene, "thing", "2 triangles"));
   EXPECT_TRUE(scene->intersect(Ray{vec3(0.1f, 0.2f, 1), vec3(0, 0, -1)}));
 }

@@ -24,8 +24,8 @@ TEST(Commit, SharesMeshesWithTheSceneBefore) {
   kit.builder.set_instance("ball", moved);
   auto second = kit.build();
   EXPECT_EQ(second->accel->built(), 1u);
-  EXPECT_EQ(second->meshes[0], first->meshes[0]);
-  EXPECT_NE(second->meshes[1], first->meshes[1]);
+  EXPECT_EQ(second->shapes[0], first->shapes[0]);
+  EXPECT_NE(second->shapes[1], first->shapes[1]);
   const auto hits = [](const Scene& scene, float x, float height) {
     const auto hit = scene.intersect(Ray{vec3(x, 0.01f, 9), vec3(0, 0, -1)});
     return hit && std::abs(hit->p.z - height) < 0.01f;

@@ -121,7 +121,7 @@ TEST(TimeSlice, DeformsMeshes) {
   EXPECT_EQ(height(*scene, 0.5f, 0.25f), 0);  // the mesh itself, which is of the centre
   EXPECT_NEAR(height(*half, 0.5f, 0.25f), 0.75f, 1e-6f);
   EXPECT_EQ(half->accel->built(), 1u);
-  EXPECT_EQ(&half->meshes[0]->triangles(), &scene->meshes[0]->triangles());
+  EXPECT_EQ(&half->shapes[0]->mesh()->triangles(), &scene->shapes[0]->mesh()->triangles());
   const auto hit = half->intersect(Ray{vec3(0.5f, 0.25f, 9), kDown});
   EXPECT_NEAR(glm::length(hit->ns), 1, 1e-6f);
   EXPECT_NEAR(hit->ns.x, normalize(vec3(0, 0, 1) + normalize(vec3(-1, 0, 1))).x, 1e-6f);

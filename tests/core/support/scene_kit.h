@@ -128,6 +128,23 @@ inline MeshDesc leaning(MeshDesc mesh, vec3 normal) {
   return mesh;
 }
 
+// A tube along keys, of one radius.
+inline RoundDesc strand(std::vector<vec3> keys, float radius, bool straight = false) {
+  RoundDesc shape;
+  shape.curves = {0, static_cast<uint32_t>(keys.size())};
+  shape.radii.assign(keys.size(), radius);
+  shape.positions = std::move(keys);
+  shape.straight = straight;
+  return shape;
+}
+
+inline RoundDesc balls(std::vector<vec3> centers, float radius) {
+  RoundDesc shape;
+  shape.radii.assign(centers.size(), radius);
+  shape.positions = std::move(centers);
+  return shape;
+}
+
 // --- Transforms ---
 
 inline mat4 translation(vec3 t) {
@@ -185,6 +202,12 @@ class SceneKit {
     }
     builder.set_mesh(name, std::move(mesh));
     builder.set_instance(name, std::move(instance));
+    return *this;
+  }
+  SceneKit& add(const std::string& name, RoundDesc shape, std::optional<NodeGraph> material,
+                const mat4& transform = mat4(1.0f)) {
+    add(name, MeshDesc{}, std::move(material), transform);
+    builder.set_round(name, std::move(shape));
     return *this;
   }
   SceneKit& light(const std::string& name, LightDesc desc) {
@@ -306,6 +329,24 @@ inline SceneKit room() {
   return open_box()
       .add("block", cuboid({-0.7f, -0.2f, -1}, {-0.2f, 0.4f, 0.1f}), diffuse(Rgb(0.7f)))
       .add("low", cuboid({0.2f, -0.6f, -1}, {0.7f, 0.0f, -0.4f}), diffuse(Rgb(0.2f, 0.5f, 0.8f)));
+}
+
+// A few thick fibres that light goes through, and a ball of glass which does not bend it twice: what
+// is round is seen from outside alone.
+inline SceneKit strands_in(SceneKit kit) {
+  NodeGraph hair = combine("ADD_SHADER",
+                           single("BSDF_HAIR_PRINCIPLED",
+                                  {{"Roughness", 0.6f}, {"Radial Roughness", 0.6f}}),
+                           single("BSDF_HAIR", {{"Color", vec4(0.3f, 0.4f, 0.2f, 1)},
+                                                {"RoughnessU", 0.4f}}));
+  hair.nodes[0].properties["parametrization"] = std::string("COLOR");
+  hair.nodes[0].inputs["Color"] = vec4(0.7f, 0.5f, 0.3f, 1);
+  return kit
+      .add("hair", strand({{-0.8f, 0, 0.3f}, {-0.2f, 0.1f, 0.6f}, {0.4f, -0.1f, 0.2f}}, 0.1f), hair)
+      .add("leaf", strand({{0, -0.3f, 0.5f}, {0.7f, 0, 0.4f}}, 0.08f, true),
+           combine("MIX_SHADER", single("BSDF_TRANSLUCENT", {}), diffuse(Rgb(0.7f))))
+      .add("drop", balls({{0.1f, -0.3f, -0.1f}}, 0.15f),
+           single("BSDF_GLASS", {{"Roughness", 0.5f}, {"IOR", 1.3f}}));
 }
 
 }  // namespace janus::test

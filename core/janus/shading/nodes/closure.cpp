@@ -23,6 +23,14 @@ constexpr std::string_view kGgx[] = {"MULTI_GGX", "GGX"}, kOneGgx[] = {"GGX"},
 constexpr EnumDecl kDistribution[] = {{"distribution", kGgx, kOthers}},
                    kRefraction[] = {{"distribution", kOneGgx, kOthers}};
 
+constexpr std::string_view kComponents[] = {"Reflection", "Transmission"},
+                           kParametrizations[] = {"ABSORPTION", "MELANIN", "COLOR"},
+                           kModels[] = {"CHIANG"};
+// Hair of the other model looks much like this one.
+constexpr EnumDecl kComponent[] = {{"component", kComponents}},
+                   kPrincipledHair[] = {{"parametrization", kParametrizations},
+                                        {"model", kModels}};
+
 }  // namespace
 
 std::span<const NodeDecl> closure_nodes() {
@@ -41,6 +49,9 @@ std::span<const NodeDecl> closure_nodes() {
       {"BACKGROUND", kEmissionInputs, kBackground, nullptr, &kEmissionClosure},
       {"BSDF_PRINCIPLED", kPrincipledInputs, kBsdf, nullptr, &kPrincipledClosure, MixOp::None,
        kDistribution},
+      {"BSDF_HAIR", kHairInputs, kBsdf, nullptr, &kHairClosure, MixOp::None, kComponent},
+      {"BSDF_HAIR_PRINCIPLED", kPrincipledHairInputs, kBsdf, nullptr, &kPrincipledHairClosure,
+       MixOp::None, kPrincipledHair},
       {"MIX_SHADER", kMix, kShader, nullptr, nullptr, MixOp::Mix},
       {"ADD_SHADER", kAdd, kShader, nullptr, nullptr, MixOp::Add},
   };

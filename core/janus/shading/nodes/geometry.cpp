@@ -171,6 +171,44 @@ void emit_tangent(NodeEmitter& e) {
   e.output("Tangent", radial_tangent(e, axis == "X" ? 0 : axis == "Y" ? 1 : 2));
 }
 
+// --- Curves Info ---------------------------------------------------------------------------------
+
+constexpr std::string_view kCurvesInfo[] = {"Is Strand", "Intercept", "Length",
+                                            "Thickness", "Tangent Normal", "Random"};
+
+constexpr Operation kIsStrand =
+    at_point<[](const Context& c) { return c.point.on_curve ? 1.0f : 0.0f; }>;
+// To the viewer, across the curve.
+constexpr Operation kTangentNormal = by_view<[](const Context& c) {
+  const vec3 along = c.point.edge_u, view = c.point.view;
+  const float length2 = dot(along, along);
+  if (!c.point.on_curve || !(length2 > 0.0f)) {
+    return vec3(0.0f);
+  }
+  const vec3 across = view - along * (dot(along, view) / length2);
+  const float length = glm::length(across);
+  return length == 0.0f ? vec3(0.0f) : across / length;
+}>;
+// By the mean size of the object: a length along the diagonal.
+constexpr Operation kThickness = at_point<[](const Context& c) {
+  const vec3 diagonal(2.0f * c.point.attribute(c.data).x / std::sqrt(3.0f));
+  return c.point.object ? glm::length(mat3(c.point.object->to_world) * diagonal) : 0.0f;
+}>;
+
+void emit_curves_info(NodeEmitter& e) {
+  e.output("Is Strand", e.emit(kIsStrand, {}));
+  e.output("Random", e.emit(kStrand, {e.constant(0.0f)}));
+  e.output("Tangent Normal", e.emit(kTangentNormal, {}));
+  for (const auto& [output, key] : {std::pair("Intercept", "curve_intercept"),
+                                    std::pair("Length", "curve_length"),
+                                    std::pair("Thickness", "curve_radius")}) {
+    if (e.output_linked(output)) {
+      const bool thickness = std::string_view(output) == "Thickness";
+      e.output(output, e.emit(thickness ? kThickness : kAttributeFactor, {}, e.attribute(key)));
+    }
+  }
+}
+
 }  // namespace
 
 std::span<const NodeDecl> geometry_nodes() {
@@ -179,6 +217,7 @@ std::span<const NodeDecl> geometry_nodes() {
       {"ATTRIBUTE", {}, kAttributeOutputs, &emit_attribute, nullptr, MixOp::None, kKind},
       {"VERTEX_COLOR", {}, kColorAlpha, &emit_color_attribute},
       {"NEW_GEOMETRY", {}, kGeometry, &emit_geometry},
+      {"HAIR_INFO", {}, kCurvesInfo, &emit_curves_info},
       {"TANGENT", {}, kTangent, &emit_tangent, nullptr, MixOp::None, kDirection},
   };
   return kNodes;
