@@ -127,12 +127,12 @@ void bind_mesh(py::class_<SceneBuilder>& builder) {
       "curves"_a, "straight"_a = false, "material_indices"_a = py::none(),
       "attributes"_a = py::list(),
       "Hair: tubes along curves, smooth (Catmull-Rom) or straight between their keys, under a key "
-      "among those of meshes. positions float[N,3] and radii float[N] of the keys; curves int[M+1]: "
+      "among those of meshes. positions float[N,3] and radii float[N] of the keys; curves "
+      "int[M+1]: "
       "where each begins, and where the last one ends; material_indices int[M]; attributes as a "
       "mesh's, of points and, as FACE, of curves. Only seen from outside.");
-  builder.def("set_points", &set_points, "key"_a, py::kw_only(), "name"_a, "positions"_a,
-              "radii"_a, "attributes"_a = py::list(),
-              "A point cloud: balls, likewise; attributes of points.");
+  builder.def("set_points", &set_points, "key"_a, py::kw_only(), "name"_a, "positions"_a, "radii"_a,
+              "attributes"_a = py::list(), "A point cloud: balls, likewise; attributes of points.");
 }
 
 }  // namespace janus::python

@@ -104,11 +104,14 @@ class ShapeAccel {
   ShapeAccel(std::shared_ptr<Device> device, std::shared_ptr<const Shape> shape,
              const CancelToken& cancel)
       : device_(std::move(device)), shape_(std::move(shape)), scene_(device_->new_scene()) {
-    RTCGeometry geometry =
-        shape_->mesh() ? geometry_of(*shape_->mesh()) : geometry_of(*shape_->round());
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
+    if (const Mesh* mesh = shape_->mesh()) {
+      attach(geometry_of(*mesh));
+    } else {
+      attach(geometry_of(*shape_->round()));
+      if (!shape_->round()->disks().empty()) {
+        attach(disks_of(*shape_->round()));
+      }
+    }
     try {
       device_->commit(scene_, cancel);
     } catch (...) {
@@ -123,6 +126,12 @@ class ShapeAccel {
   RTCScene scene() const { return scene_; }
 
  private:
+  void attach(RTCGeometry geometry) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+
   RTCGeometry geometry_of(const Mesh& mesh) const {
     RTCGeometry geometry = rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -148,9 +157,23 @@ class ShapeAccel {
                                  &shape.pieces().data()->control, 0, sizeof(RoundShape::Piece),
                                  shape.pieces().size());
     }
+    see_from_outside(geometry);
+    return geometry;
+  }
+
+  RTCGeometry disks_of(const RoundShape& shape) const {
+    RTCGeometry geometry = rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                               shape.disk_places().data(), 0, sizeof(vec4), shape.disks().size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3,
+                               shape.disk_normals().data(), 0, sizeof(vec3), shape.disks().size());
+    see_from_outside(geometry);
+    return geometry;
+  }
+
+  static void see_from_outside(RTCGeometry geometry) {
     rtcSetGeometryIntersectFilterFunction(geometry, refuse_inside);
     rtcSetGeometryOccludedFilterFunction(geometry, refuse_inside);
-    return geometry;
   }
 
   std::shared_ptr<Device> device_;
@@ -212,7 +235,7 @@ struct Accel::Impl {
   std::shared_ptr<Device> device;
   View everything;
   std::array<View, kRayTypes> own;  // of a type that is the first to meet just these instances
-  std::array<const View*, kRayTypes> view;                         // by type
+  std::array<const View*, kRayTypes> view;                           // by type
   std::map<const Shape*, std::shared_ptr<const ShapeAccel>> bottom;  // of those that are needed
 
   ~Impl() {
@@ -251,8 +274,9 @@ struct Accel::Impl {
     hit.instance = query.hit.instID[0];
     const Placement& placement = placements[hit.instance];
     if (placement.round()) [[unlikely]] {
-      placement.round_point(query.hit.primID, query.hit.u,
-                            vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z), hit);
+      placement.round_point(placement.round_primitive(query.hit.geomID, query.hit.primID),
+                            query.hit.u, vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z),
+                            ray.origin + query.ray.tfar * ray.direction, hit);
     } else {
       placement.surface_point(query.hit.primID, vec2(query.hit.u, query.hit.v), hit);
     }

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "janus/geometry/interaction.h"
 #include "janus/geometry/instance.h"
+#include "janus/geometry/interaction.h"
 #include "janus/geometry/placement.h"
 #include "janus/util/cancel.h"
 

@@ -149,8 +149,9 @@ void Mesh::take_motion(const std::string& key, std::vector<MeshKey> motion) {
                            std::to_string(normals_.size()));
     }
     if (!std::ranges::all_of(motion[i].positions, [](vec3 p) { return is_finite(p); })) {
-      warn("it has vertices that are not finite at some time of the shutter: it is rendered without "
-           "deformation");
+      warn(
+          "it has vertices that are not finite at some time of the shutter: it is rendered without "
+          "deformation");
       return;
     }
     for (const vec3 p : motion[i].positions) {

@@ -107,31 +107,45 @@ void Placement::surface_point(uint32_t primitive, vec2 b, SurfaceInteraction& hi
   hit.offset = kGamma * (to_world + object / length) + tilt / length;
 }
 
-void Placement::round_point(uint32_t primitive, float u, vec3 object_normal,
+void Placement::round_point(uint32_t primitive, float u, vec3 object_normal, vec3 near,
                             SurfaceInteraction& hit) const {
   const RoundShape::Place place = round_->place(primitive, u);
-  // Where a smooth tube grows thinner its normal leans along it, but the point is straight beside
-  // `u`. A straight one is what a ball sweeps.
+  vec3 normal = normalize(object_normal), outward = normal;
+  vec3 p = place.center;
   const float along2 = length2(place.along);
-  vec3 outward = normalize(object_normal);
   if (along2 > 0.0f && round_->kind() == RoundShape::Kind::Smooth) {
-    const vec3 across = outward - (dot(outward, place.along) / along2) * place.along;
-    outward = length2(across) > 1e-12f ? normalize(across) : outward;
+    // Where a tube grows thinner its normal leans along it, but the point is straight beside `u`.
+    // (A straight one is what a ball sweeps.) Smooth ones are met by iteration, which leaves the
+    // normal less exact than the ray: at grazing angles that would be seen in densities.
+    const vec3 off = glm::inverse(linear_) * (near - linear_ * place.center - translation_);
+    const vec3 across = off - (dot(off, place.along) / along2) * place.along;
+    const vec3 along = place.along / std::sqrt(along2);
+    const float lean = dot(normal, along);
+    if (length2(across) > 0.0f) {
+      outward = normalize(across);
+      normal = std::sqrt(std::max(0.0f, 1.0f - lean * lean)) * outward + lean * along;
+    }
+  }
+  if (round_->kind() == RoundShape::Kind::Smooth && along2 == 0.0f) {  // a disk
+    const vec3 off = glm::inverse(linear_) * (near - linear_ * place.center - translation_);
+    p += off - dot(off, normal) * normal;
+  } else {
+    p += place.radius * outward;
   }
   hit.primitive = primitive;
   hit.barycentric = vec2(u, 0.0f);
   hit.material = instance_->material(round_->material(primitive));
-  hit.p = linear_ * (place.center + place.radius * outward) + translation_;
-  hit.ng = normalize(normal_ * object_normal);
+  hit.p = linear_ * p + translation_;
+  hit.ng = normalize(normal_ * normal);
   hit.ns = normalize(normal_ * outward);
   // Outward no ray meets the surface again, whatever the rounding, as it is not seen from within;
   // inward this is far enough, and much less than the thickness.
-  constexpr float kShare = 1e-3f, kRoundings = 16.0f;
+  constexpr float kShare = 1e-4f, kRoundings = 4.0f;
   const float coordinates =
-      dot(glm::abs(hit.ng), forward_ * (glm::abs(place.center) + place.radius) +
-                                glm::abs(translation_));
-  hit.offset = kRoundings * kGamma * coordinates +
-               kShare * place.radius * glm::length(linear_ * outward);
+      dot(glm::abs(hit.ng),
+          forward_ * (glm::abs(place.center) + place.radius) + glm::abs(translation_));
+  hit.offset =
+      kRoundings * kGamma * coordinates + kShare * place.radius * glm::length(linear_ * outward);
 }
 
 }  // namespace janus

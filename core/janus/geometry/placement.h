@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "janus/geometry/interaction.h"
 #include "janus/geometry/instance.h"
+#include "janus/geometry/interaction.h"
 #include "janus/geometry/mesh.h"
 #include "janus/geometry/round_shape.h"
 
@@ -30,12 +30,18 @@ class Placement {
   // --- Of what is round instead.
 
   bool round() const { return round_ != nullptr; }
+  // The number of a piece, or of a disk, which are geometries of their own.
+  uint32_t round_primitive(uint32_t geometry, uint32_t primitive) const {
+    return geometry == 0 ? primitive : static_cast<uint32_t>(round_->pieces().size()) + primitive;
+  }
   // Amid it, at `u` of a piece.
   vec3 center(uint32_t primitive, float u) const {
     return linear_ * round_->place(primitive, u).center + translation_;
   }
-  // Likewise the surface where it has this normal, of object space and any length.
-  void round_point(uint32_t primitive, float u, vec3 object_normal, SurfaceInteraction& hit) const;
+  // Likewise the surface where it has this normal, of object space and any length; `near`: a point
+  // of the world that is hardly off it.
+  void round_point(uint32_t primitive, float u, vec3 object_normal, vec3 near,
+                   SurfaceInteraction& hit) const;
 
  private:
   void bound_rounding();

@@ -93,6 +93,11 @@ RoundShape::RoundShape(const std::string& key, RoundDesc&& desc) {
     }
     if (smooth) {
       add_control(end - 1);
+      for (const uint32_t key : {begin, end - 1}) {
+        if (desc.radii[key] > 0.0f) {
+          topology->disks.push_back({first + 1 + (key - begin), key, curve});
+        }
+      }
     }
   }
   if (dropped > 0) {
@@ -113,6 +118,18 @@ void RoundShape::place_controls(const std::vector<vec3>& positions) {
   for (size_t i = 0; i < topology_->keys.size(); ++i) {
     controls_.emplace_back(positions[topology_->keys[i]], topology_->radii[i]);
   }
+  disk_places_.clear();
+  disk_normals_.clear();
+  for (const Piece& disk : disks()) {
+    // Away from the neighbour: the other one is the key itself.
+    const vec4* c = &controls_[disk.control];
+    const vec3 out = 2.0f * vec3(c[0]) - vec3(c[-1]) - vec3(c[1]);
+    const float length = glm::length(out);
+    disk_places_.push_back(c[0]);
+    disk_normals_.push_back(length > 0.0f ? out / length : vec3(0, 0, 1));
+  }
+  disk_places_.emplace_back(0.0f);
+  disk_normals_.emplace_back(0.0f);
   extend_bounds();
 }
 
@@ -151,8 +168,9 @@ void RoundShape::take_motion(const std::string& key, size_t positions,
     }
     for (const uint32_t i : topology_->keys) {
       if (!is_finite(time.positions[i])) {
-        warn("it has points that are not finite at some time of the shutter: it is rendered "
-             "without deformation");
+        warn(
+            "it has points that are not finite at some time of the shutter: it is rendered "
+            "without deformation");
         return;
       }
     }
@@ -181,19 +199,19 @@ std::shared_ptr<const Shape> RoundShape::at(float time) const {
 }
 
 uint32_t RoundShape::material(uint32_t primitive) const {
-  return topology_->materials.empty() ? 0 : topology_->materials[pieces()[primitive].curve];
+  return topology_->materials.empty() ? 0 : topology_->materials[piece(primitive).curve];
 }
 
 // As a triangle with two of its corners in one: attributes are interpolated along the first edge.
 TriangleIndices RoundShape::indices(uint32_t primitive) const {
-  const Piece& piece = pieces()[primitive];
-  const uint32_t next = piece.key + (curves() ? 1 : 0);
+  const Piece& piece = this->piece(primitive);
+  const uint32_t next = piece.key + (curves() && primitive < pieces().size() ? 1 : 0);
   return {{piece.key, next, next}, {}, piece.curve};
 }
 
 RoundShape::Place RoundShape::place(uint32_t primitive, float u) const {
-  const vec4* c = &controls_[pieces()[primitive].control];
-  if (kind() == Kind::Balls) {
+  const vec4* c = &controls_[piece(primitive).control];
+  if (kind() == Kind::Balls || primitive >= pieces().size()) {
     return {vec3(c[0]), c[0].w, vec3(0.0f)};
   }
   if (kind() == Kind::Straight) {

@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "janus/geometry/interaction.h"
 #include "janus/geometry/instance.h"
+#include "janus/geometry/interaction.h"
 #include "janus/shading/program.h"
 
 namespace janus {

@@ -102,7 +102,9 @@ struct FullPath {
       own = i == s ? term : own;
     }
     for (int i = 2; i < k() && counts.merge > 0.0f; ++i) {
-      total += z(i).delta || z(i).vertex->bsdf().one_way() ? 0.0 : std::pow(counts.merge * merge_density(i), exponent);
+      total += z(i).delta || z(i).vertex->bsdf().one_way()
+                   ? 0.0
+                   : std::pow(counts.merge * merge_density(i), exponent);
     }
     return total > 0.0 ? own / total : 0.0;
   }

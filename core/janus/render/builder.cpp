@@ -122,9 +122,8 @@ class Commit {
             const Program& program = scene_.surfaces.program(p);
             return program.emits() && (!program.sample_emission || program.varying_emission);
           });
-      auto light =
-          std::make_unique<MeshLight>(*scene_.accel, scene_.surfaces, *mesh, instance,
-                                      static_cast<uint32_t>(i));
+      auto light = std::make_unique<MeshLight>(*scene_.accel, scene_.surfaces, *mesh, instance,
+                                               static_cast<uint32_t>(i));
       if (light->power() > 0.0f || by_chance) {
         instance.light = static_cast<int>(scene_.lights.size());
         scene_.lights.push_back(std::move(light));

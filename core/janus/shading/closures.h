@@ -12,7 +12,7 @@ struct Closure {
   uint16_t share;     // its part of Mix and Add
   uint32_t operands;  // one for each input of the node's declaration
   uint16_t normal;    // its own normal, on the viewer's side; kNoNormal: that of the surface
-  uint8_t variant;  // of the node's first setting: the place of its value among the items
+  uint8_t variant;    // of the node's first setting: the place of its value among the items
 
   static constexpr uint16_t kNoNormal = UINT16_MAX;
 

@@ -16,8 +16,8 @@ void GraphCompiler::closure(const NodeReader& reader, Value share) {
   ClosureStep step{reader.decl().closure, share, {}, 0, false, share};
   if (!reader.decl().settings.empty()) {
     const EnumDecl& setting = reader.decl().settings.front();
-    const auto chosen = std::ranges::find(
-        setting.items, reader.property(setting.property, setting.items.front()));
+    const auto chosen =
+        std::ranges::find(setting.items, reader.property(setting.property, setting.items.front()));
     step.variant = static_cast<uint8_t>(chosen - setting.items.begin());
   }
   for (const SocketDecl& socket : reader.decl().inputs) {

@@ -65,9 +65,6 @@ float azimuthal_cauchy_range(float width) { return 2.0f * std::atan(kHalfPi / wi
 
 LobeEval evaluate_hair(const Lobe& lobe, const Directions& d) {
   const bool transmission = lobe.type == LobeType::HairTransmission;
-  if ((dot(facing(d.ns, d.wo_ng), d.wi) < 0.0f) != transmission) {
-    return {};
-  }
   const AroundFiber fiber(lobe.normal, d.wo);
   const float z = dot(lobe.normal, d.wi);
   const float theta_i = kHalfPi - safe_acos(z);
@@ -78,11 +75,12 @@ LobeEval evaluate_hair(const Lobe& lobe, const Directions& d) {
   }
   const float cos_phi = dot(across / length, fiber.towards), phi = safe_acos(cos_phi);
   float around;
+  if (transmission && cos_phi > 0.0f) {
+    return {};
+  }
   if (transmission) {
     const float p = kPi - phi, width = lobe.sigma;
     around = width / (azimuthal_cauchy_range(width) * (p * p + width * width));
-  } else if (cos_phi < 0.0f) {
-    return {};
   } else {
     around = std::cos(0.5f * std::min(phi / lobe.sigma, kPi)) * 0.25f / lobe.sigma;
   }
@@ -148,9 +146,7 @@ float sample_logistic(float u, float s) {
   return std::clamp(x, -kPi, kPi);
 }
 
-float wrapped(float angle) {
-  return angle - 2.0f * kPi * std::floor((angle + kPi) / (2.0f * kPi));
-}
+float wrapped(float angle) { return angle - 2.0f * kPi * std::floor((angle + kPi) / (2.0f * kPi)); }
 
 // What the terms have in common, as seen from `wo`.
 class ChiangView {
@@ -230,7 +226,9 @@ class ChiangView {
   float turn(int p) const {
     return 2.0f * static_cast<float>(p) * gamma_t_ - 2.0f * gamma_o_ + static_cast<float>(p) * kPi;
   }
-  float variance(int p) const { return p == 0 ? lobe_.alpha : (p == 1 ? 0.25f : 4.0f) * lobe_.alpha; }
+  float variance(int p) const {
+    return p == 0 ? lobe_.alpha : (p == 1 ? 0.25f : 4.0f) * lobe_.alpha;
+  }
   // The view, as the scales turn it: by -2, 1 and 4 times their tilt.
   Tilted tilted(int p) const {
     constexpr float kTurns[kTerms] = {-2.0f, 1.0f, 4.0f, 0.0f};

@@ -4,11 +4,13 @@
 // comes out where it has come in, and the camera sees the side that looks at it. Only camera walks
 // sample them (Bsdf::one_way()).
 //
-// - Hair BSDF: Cauchy and cosine lobes around the cone of mirror directions (Cycles; after Marschner
-//   et al. 2003).
+// - Hair BSDF: Cauchy and cosine lobes around the cone of mirror directions (Cycles; after
+// Marschner
+//   et al. 2003). Reflections may go around the fibre: so they do in Cycles, but where it looks for
+//   lamps it leaves out those on the far side, and transmissions on the near side.
 // - Principled Hair BSDF: Chiang et al., "A Practical and Controllable Hair and Fur Model for
-//   Production Path Tracing" (2016), after d'Eon et al. 2011: for each number p of bounces inside, an
-//   attenuation A_p, a longitudinal term M_p and an azimuthal one N_p, in the frame of the view.
+//   Production Path Tracing" (2016), after d'Eon et al. 2011: for each number p of bounces inside,
+//   an attenuation A_p, a longitudinal term M_p and an azimuthal one N_p, in the frame of the view.
 #pragma once
 
 #include <optional>

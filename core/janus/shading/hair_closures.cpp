@@ -59,20 +59,21 @@ enum Input {
   Random,
   Along
 };
-constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, vec3(0.017513f, 0.005763f, 0.002059f)},
-                                  {"Melanin", Float, 0.8f},
-                                  {"Melanin Redness", Float, 1.0f},
-                                  {"Tint", SocketType::Color, 1.0f},
-                                  {"Absorption Coefficient", Vector, vec3(0.245531f, 0.52f, 1.365f)},
-                                  {"Roughness", Float, 0.3f},
-                                  {"Radial Roughness", Float, 0.3f},
-                                  {"Coat", Float, 0.0f},
-                                  {"IOR", Float, 1.55f},
-                                  {"Offset", Float, 0.0349066f},
-                                  {"Random Color", Float, 0.0f},
-                                  {"Random Roughness", Float, 0.0f},
-                                  {"Random", Float, Implicit::Strand},
-                                  {"", Vector, Implicit::Along}};
+constexpr SocketDecl kInputs[] = {
+    {"Color", SocketType::Color, vec3(0.017513f, 0.005763f, 0.002059f)},
+    {"Melanin", Float, 0.8f},
+    {"Melanin Redness", Float, 1.0f},
+    {"Tint", SocketType::Color, 1.0f},
+    {"Absorption Coefficient", Vector, vec3(0.245531f, 0.52f, 1.365f)},
+    {"Roughness", Float, 0.3f},
+    {"Radial Roughness", Float, 0.3f},
+    {"Coat", Float, 0.0f},
+    {"IOR", Float, 1.55f},
+    {"Offset", Float, 0.0349066f},
+    {"Random Color", Float, 0.0f},
+    {"Random Roughness", Float, 0.0f},
+    {"Random", Float, Implicit::Strand},
+    {"", Vector, Implicit::Along}};
 enum Parametrization { FromAbsorption, FromMelanin, FromColor };
 
 Rgb absorption(const ClosureArguments& a, float random, float radial_roughness) {
@@ -80,8 +81,8 @@ Rgb absorption(const ClosureArguments& a, float random, float radial_roughness) 
     case FromAbsorption:
       return a.vector(Absorption);
     case FromMelanin: {
-      const float amount = a.number(Melanin) * (1.0f + 2.0f * (random - 0.5f) *
-                                                           a.fraction(RandomColor));
+      const float amount =
+          a.number(Melanin) * (1.0f + 2.0f * (random - 0.5f) * a.fraction(RandomColor));
       const float melanin = -std::log(std::max(1.0f - amount, 0.0001f));
       const float redness = a.number(Redness);
       return absorption_of_melanin(melanin * (1.0f - redness), melanin * redness) +
@@ -115,8 +116,7 @@ void add(const ClosureArguments& a, ShadingResult& out) {
 }  // namespace
 
 const ClosureDecl kHairClosure{&hair::add, {.transmits = true, .fibers = true, .lobes = 1}},
-    kPrincipledHairClosure{&principled_hair::add,
-                           {.transmits = true, .fibers = true, .lobes = 2}};
+    kPrincipledHairClosure{&principled_hair::add, {.transmits = true, .fibers = true, .lobes = 2}};
 
 const std::span<const SocketDecl> kHairInputs(hair::kInputs),
     kPrincipledHairInputs(principled_hair::kInputs);

@@ -16,17 +16,17 @@ enum class LobeType : uint8_t {
   HairTransmission,  // and Transmission
   ChiangReflection,  // Principled Hair BSDF of Chiang's model: R,
   ChiangRest,        // and TT, TRT, and all after
-  Glossy,       // GGX reflection without Fresnel term
-  Metal,        // GGX reflection, Fresnel term of Schlick
-  Specular,     // GGX reflection with the Fresnel term of a dielectric
-  Glass,        // GGX reflection and refraction at a dielectric
-  Refraction,   // GGX refraction alone, without Fresnel term
+  Glossy,            // GGX reflection without Fresnel term
+  Metal,             // GGX reflection, Fresnel term of Schlick
+  Specular,          // GGX reflection with the Fresnel term of a dielectric
+  Glass,             // GGX reflection and refraction at a dielectric
+  Refraction,        // GGX refraction alone, without Fresnel term
 };
 
 // One term of a Bsdf: plain data in world space, without anything that depends on the view, so that
 // it can be kept in a cache. Made by the functions below; the normal is set where it is placed.
 struct Lobe {
-  Rgb weight;   // colour times the closure's share in Mix and Add
+  Rgb weight;  // colour times the closure's share in Mix and Add
   // Metal: F0; Glass: tint; OrenNayar: albedo; Glossy, Specular: multiscatter tint; Chiang:
   // absorption by radius
   Rgb color;
@@ -57,8 +57,7 @@ inline bool is_fiber(LobeType type) {
 inline bool is_diffuse(LobeType type) { return type <= LobeType::Translucent; }
 inline bool is_delta(const Lobe& lobe) { return is_ggx(lobe.type) && lobe.alpha == 0.0f; }
 inline bool transmits(const Lobe& lobe) {
-  return lobe.type >= LobeType::Glass || lobe.type == LobeType::Translucent ||
-         (is_fiber(lobe.type) && lobe.type != LobeType::HairReflection);
+  return lobe.type >= LobeType::Glass || lobe.type == LobeType::Translucent || is_fiber(lobe.type);
 }
 
 // What the compiler makes closures of. `alpha` is the square of a node's roughness; what Cycles

@@ -331,14 +331,13 @@ inline SceneKit room() {
       .add("low", cuboid({0.2f, -0.6f, -1}, {0.7f, 0.0f, -0.4f}), diffuse(Rgb(0.2f, 0.5f, 0.8f)));
 }
 
-// A few thick fibres that light goes through, and a ball of glass which does not bend it twice: what
-// is round is seen from outside alone.
+// A few thick fibres that light goes through, and a ball of glass which does not bend it twice:
+// what is round is seen from outside alone.
 inline SceneKit strands_in(SceneKit kit) {
-  NodeGraph hair = combine("ADD_SHADER",
-                           single("BSDF_HAIR_PRINCIPLED",
-                                  {{"Roughness", 0.6f}, {"Radial Roughness", 0.6f}}),
-                           single("BSDF_HAIR", {{"Color", vec4(0.3f, 0.4f, 0.2f, 1)},
-                                                {"RoughnessU", 0.4f}}));
+  NodeGraph hair =
+      combine("ADD_SHADER",
+              single("BSDF_HAIR_PRINCIPLED", {{"Roughness", 0.6f}, {"Radial Roughness", 0.6f}}),
+              single("BSDF_HAIR", {{"Color", vec4(0.3f, 0.4f, 0.2f, 1)}, {"RoughnessU", 0.9f}}));
   hair.nodes[0].properties["parametrization"] = std::string("COLOR");
   hair.nodes[0].inputs["Color"] = vec4(0.7f, 0.5f, 0.3f, 1);
   return kit

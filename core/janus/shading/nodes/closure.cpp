@@ -28,8 +28,7 @@ constexpr std::string_view kComponents[] = {"Reflection", "Transmission"},
                            kModels[] = {"CHIANG"};
 // Hair of the other model looks much like this one.
 constexpr EnumDecl kComponent[] = {{"component", kComponents}},
-                   kPrincipledHair[] = {{"parametrization", kParametrizations},
-                                        {"model", kModels}};
+                   kPrincipledHair[] = {{"parametrization", kParametrizations}, {"model", kModels}};
 
 }  // namespace
 

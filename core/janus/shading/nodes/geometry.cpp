@@ -173,7 +173,7 @@ void emit_tangent(NodeEmitter& e) {
 
 // --- Curves Info ---------------------------------------------------------------------------------
 
-constexpr std::string_view kCurvesInfo[] = {"Is Strand", "Intercept", "Length",
+constexpr std::string_view kCurvesInfo[] = {"Is Strand", "Intercept",      "Length",
                                             "Thickness", "Tangent Normal", "Random"};
 
 constexpr Operation kIsStrand =
@@ -199,9 +199,9 @@ void emit_curves_info(NodeEmitter& e) {
   e.output("Is Strand", e.emit(kIsStrand, {}));
   e.output("Random", e.emit(kStrand, {e.constant(0.0f)}));
   e.output("Tangent Normal", e.emit(kTangentNormal, {}));
-  for (const auto& [output, key] : {std::pair("Intercept", "curve_intercept"),
-                                    std::pair("Length", "curve_length"),
-                                    std::pair("Thickness", "curve_radius")}) {
+  for (const auto& [output, key] :
+       {std::pair("Intercept", "curve_intercept"), std::pair("Length", "curve_length"),
+        std::pair("Thickness", "curve_radius")}) {
     if (e.output_linked(output)) {
       const bool thickness = std::string_view(output) == "Thickness";
       e.output(output, e.emit(thickness ? kThickness : kAttributeFactor, {}, e.attribute(key)));
