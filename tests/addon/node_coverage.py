@@ -22,7 +22,6 @@ REFUSED = {
     "HAIR_INFO": "hair",
     "LIGHT_FALLOFF": "the distance to what is lit",
     "MATERIAL_RAYCAST": "needs rays of its own",
-    "OUTPUT_AOV": "passes; the picture is the same without it",
     "PARTICLE_INFO": "particles",
     "POINT_INFO": "point clouds",
     "PRINCIPLED_VOLUME": "volume; named for the material",

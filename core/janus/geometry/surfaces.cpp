@@ -17,10 +17,22 @@ uint32_t Surfaces::add_program(Program program, const std::string& material, flo
   return static_cast<uint32_t>(surfaces_.size() - 1);
 }
 
+void Surfaces::add_aovs(uint32_t surface, Program aovs) {
+  shared_->programs.push_back(std::make_unique<const Program>(std::move(aovs)));
+  ++shared_->aov_programs;
+  surfaces_[surface].aovs = static_cast<uint32_t>(surfaces_.size());
+  surfaces_.push_back({shared_->programs.back().get(), nullptr, material_index(surface),
+                       material(surface)});
+}
+
 uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
                         const std::map<std::string, vec4>& own) {
   const Program& program = *surfaces_[surface].program;
-  if (program.attributes.empty()) {
+  uint32_t aovs = surfaces_[surface].aovs;
+  if (aovs != 0) {
+    aovs = bind(aovs, mesh, own);
+  }
+  if (program.attributes.empty() && aovs == surfaces_[surface].aovs) {
     return surface;
   }
   std::vector<float> read;
@@ -29,7 +41,7 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
       read.insert(read.end(), &found->second.x, &found->second.x + 4);
     }
   }
-  const auto [entry, fresh] = shared_->bound.try_emplace({surface, &mesh, std::move(read)}, 0);
+  const auto [entry, fresh] = shared_->bound.try_emplace({surface, &mesh, std::move(read), aovs}, 0);
   if (fresh) {
     auto slots = std::make_unique<const AttributeDesc*[]>(program.attributes.size());
     const auto find = [&](const std::string& key) {
@@ -44,7 +56,7 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
     };
     std::transform(program.attributes.begin(), program.attributes.end(), slots.get(), find);
     entry->second = static_cast<uint32_t>(surfaces_.size());
-    surfaces_.push_back({&program, slots.get(), material_index(surface), material(surface)});
+    surfaces_.push_back({&program, slots.get(), material_index(surface), material(surface), aovs});
     shared_->attributes.push_back(std::move(slots));
   }
   return entry->second;
@@ -54,7 +66,7 @@ void Surfaces::set_objects(const MeshList& meshes, const std::vector<Instance>& 
                            const CameraView& camera, const PixelFootprint& footprint) {
   footprint_ = footprint;
   const bool needed = std::any_of(shared_->programs.begin(), shared_->programs.end(),
-                                  [](const auto& program) { return !program->constant(); });
+                                  [](const auto& p) { return !p->constant() || !p->aovs.empty(); });
   if (!needed) {
     return;
   }

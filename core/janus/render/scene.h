@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "janus/geometry/accel.h"
@@ -103,6 +104,8 @@ class Scene {
   bool has_links = false;         // some light does not shine on everything
   bool has_ray_types = false;     // that, or some object or light is not visible to all rays
   bool has_holdouts = false;      // of some object or surface
+  std::vector<std::string> aov_names;         // by the numbers that programs write
+  std::shared_ptr<const Program> world_aovs;  // null: the camera sees none in the background
   CameraDesc camera;
   Diagnostics diagnostics;
   // Of a scene at a time of the shutter: the one that it was made of, with which it shares much.

@@ -4,6 +4,7 @@
 // registers, and closures that read their parameters from registers.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -60,6 +61,12 @@ enum class Dependence : uint8_t {
   View,  // the direction
 };
 
+// What an AOV Output node writes.
+struct AovWrite {
+  uint32_t aov;           // a number of the scene's
+  uint16_t color, value;  // registers
+};
+
 class Program {
  public:
   // --- What does not vary over the surface.
@@ -83,6 +90,7 @@ class Program {
   bool tangents = false;             // some attribute is a tangent
   Dependence dependence = Dependence::None;
   bool transmits = false;  // some closure scatters to the other side, or may
+  std::vector<AovWrite> aovs;  // of a program that does nothing else
 
   Program();
   ~Program();
@@ -109,10 +117,24 @@ class Program {
 
   void run(const ShadingPoint& point, ShadingResult& result) const;
 
+  // Calls write(aov, color, value) for each of `aovs`. What is no number is 0.
+  template <class Write>
+  void run_aovs(const ShadingPoint& point, Write&& write) const {
+    float r[kMaxRegisters];
+    fill(point, r);
+    const auto finite = [](float x) { return std::isfinite(x) ? x : 0.0f; };
+    for (const AovWrite& a : aovs) {
+      const float* c = r + a.color;
+      write(a.aov, vec3(finite(c[0]), finite(c[1]), finite(c[2])), finite(r[a.value]));
+    }
+  }
+
   // Do both emit the same everywhere, to all appearance?
   bool emits_like(const Program& other) const;
 
  private:
+  // Computes the registers.
+  void fill(const ShadingPoint& point, float* registers) const;
   void execute(RunState state) const;
 };
 

@@ -24,7 +24,7 @@ from . import Error, IoError, RenderSettings, Scene, SceneBuilder, __version__
 __all__ = ["CapturingBuilder", "load"]
 
 FORMAT = "janus scene"
-VERSION = 8  # raised when an older reader could not understand a newer file
+VERSION = 9  # raised when an older reader could not understand a newer file
 
 _KINDS = (
     "mesh",
@@ -282,8 +282,9 @@ def _build(
     settings = dict(description["settings"])
     if settings.get("crop") is not None:
         settings["crop"] = tuple(settings["crop"])
-    if "expressions" in settings:
-        settings["expressions"] = [tuple(pair) for pair in settings["expressions"]]
+    for name in ("expressions", "aovs"):
+        if name in settings:
+            settings[name] = [tuple(pair) for pair in settings[name]]
     return builder, RenderSettings(**settings)
 
 
