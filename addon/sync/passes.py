@@ -87,9 +87,7 @@ def requested(scene, layer) -> list[Pass]:
     names += strategy_names(strategy_length(scene))
     noisy = [NOISY_IMAGE] if denoises(scene, layer) else []
     own = [Pass(name, name) for name in names]
-    made = [
-        Pass(aov.name, f"AOV {aov.name}", *AOV_CHANNELS[aov.type]) for aov in aovs(layer)
-    ]
+    made = [Pass(aov.name, f"AOV {aov.name}", *AOV_CHANNELS[aov.type]) for aov in aovs(layer)]
     return [*data_passes(layer), *light_passes(layer), *mattes(layer), *made, *noisy, *own]
 
 

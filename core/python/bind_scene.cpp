@@ -264,7 +264,8 @@ void bind_scene(py::module_& m) {
           "key"_a, py::kw_only(), "name"_a, "graph"_a, "sample_emission"_a = true,
           "material_index"_a = 0.0f, "aovs"_a = py::none(),
           "A surface, as a flattened node tree: {'nodes': [{'name', 'type', 'inputs', "
-          "'properties'}], 'surface': {'link': [node, output]} or None}; aovs: likewise a tree that "
+          "'properties'}], 'surface': {'link': [node, output]} or None}; aovs: likewise a tree "
+          "that "
           "ends in OUTPUT_AOV nodes, with the property aov_name. Returns the keys of the "
           "attributes that they read. Of a mesh: 'generated', 'normal', 'color:', 'uv:NAME', "
           "'tangent:NAME', 'tangent_sign:NAME' (no name: the active one), 'attribute:NAME', "

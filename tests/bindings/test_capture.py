@@ -274,7 +274,8 @@ def test_aovs_are_captured(tmp_path):
     again, found = capture.load(tmp_path / "scene.npz")
     assert found == settings and found.aovs == [("Mask", "VALUE"), ("Tint", "COLOR")]
     pictures = [
-        render(scene.commit(), aovs=settings.aovs).snapshot("AOV Mask") for scene in (builder, again)
+        render(scene.commit(), aovs=settings.aovs).snapshot("AOV Mask")
+        for scene in (builder, again)
     ]
     assert np.array_equal(*pictures)
     assert pictures[0].max() == 3.0 and pictures[0].min() >= -2.0

@@ -21,7 +21,10 @@ def pictures(tmp_path_factory):
         ours = [captured.render_passes(integrator="pt", samples=256, seed=s) for s in SEEDS]
         theirs = [{key.split(".")[-1]: p for key, p in one.items()} for one in cycles]
         return tuple(
-            {name: np.mean([one[prefix + name] for one in seeds], axis=0) for name in aov_scenes.AOVS}
+            {
+                name: np.mean([one[prefix + name] for one in seeds], axis=0)
+                for name in aov_scenes.AOVS
+            }
             for seeds, prefix in ((ours, "AOV "), (theirs, ""))
         )
 
@@ -35,8 +38,10 @@ def test_aovs(pictures, case, name):
     a, b = (made[name] for made in pictures(case))
     assert a.shape == b.shape and a.shape[2] == (4 if aov_scenes.AOVS[name] == "COLOR" else 1)
     off = np.abs(a - b)
-    print(f"{case}, {name}: mean {off.mean():.5f}, largest {off.max():.4f} of {np.abs(b).max():.2f}")
-    unseen = name == "Sky" and (case == "transparent_film" or case == "hidden_world")
+    print(
+        f"{case}, {name}: mean {off.mean():.5f}, largest {off.max():.4f} of {np.abs(b).max():.2f}"
+    )
+    unseen = name == "Sky" and case in ("transparent_film", "hidden_world")
     assert (np.abs(b).max() == 0.0) == unseen
     assert off.max() < 0.15 and off.mean() < 0.006
 

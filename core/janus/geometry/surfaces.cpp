@@ -21,8 +21,8 @@ void Surfaces::add_aovs(uint32_t surface, Program aovs) {
   shared_->programs.push_back(std::make_unique<const Program>(std::move(aovs)));
   ++shared_->aov_programs;
   surfaces_[surface].aovs = static_cast<uint32_t>(surfaces_.size());
-  surfaces_.push_back({shared_->programs.back().get(), nullptr, material_index(surface),
-                       material(surface)});
+  surfaces_.push_back(
+      {shared_->programs.back().get(), nullptr, material_index(surface), material(surface)});
 }
 
 uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
@@ -41,7 +41,8 @@ uint32_t Surfaces::bind(uint32_t surface, const Mesh& mesh,
       read.insert(read.end(), &found->second.x, &found->second.x + 4);
     }
   }
-  const auto [entry, fresh] = shared_->bound.try_emplace({surface, &mesh, std::move(read), aovs}, 0);
+  const auto [entry, fresh] =
+      shared_->bound.try_emplace({surface, &mesh, std::move(read), aovs}, 0);
   if (fresh) {
     auto slots = std::make_unique<const AttributeDesc*[]>(program.attributes.size());
     const auto find = [&](const std::string& key) {

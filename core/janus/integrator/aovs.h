@@ -21,13 +21,16 @@ class AovShare {
  public:
   float value() const { return value_; }
 
-  // Meets a surface. Cycles plays roulette with its paths from the third one on.
-  void arrive(int crossings) {
+  // Meets a surface: with which share it writes. Cycles plays roulette with its paths from the
+  // third one on; what emits is still seen by those that end there.
+  float arrive(int crossings, bool emits) {
+    const float before = value_;
     if (crossings >= 2) {
       const float survival = std::min(1.0f, std::sqrt(max_component(throughput_)));
       value_ *= survival;
       throughput_ /= survival;
     }
+    return emits ? before : value_;
   }
 
   // Passes it: by a choice among Transparent and the lobes. What emits or holds out is no choice.

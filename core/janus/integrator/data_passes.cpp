@@ -30,6 +30,7 @@ class DataPasses final : public PassIntegrator {
         data_(data),
         film_(film),
         choice_(film.choice()),
+        surfaces_(choice_.surfaces()),
         aovs_(context.scene().aov_names, choice_.aovs) {
     for (const std::string& name : context.scene().surfaces.material_names()) {
       material_ids_.push_back(id_of(name));
@@ -74,7 +75,7 @@ class DataPasses final : public PassIntegrator {
       return;
     }
     const Ray& ray = seen.ray;
-    if (choice_.surfaces()) {
+    if (surfaces_) {
       look_straight(ray, sampler, sample, counters);
     }
     if (choice_.features()) {
@@ -100,8 +101,9 @@ class DataPasses final : public PassIntegrator {
       const vec3 wo = -ray.direction;
       const ShadingResult shading = context_.scene().shade(*hit, wo);
       if (!done && !choice_.aovs.empty()) {
-        aov_share.arrive(crossings);
-        context_.scene().surfaces.write_aovs(*hit, wo, aovs_.writer(aov_share.value(), sample));
+        const bool emits = context_.scene().surfaces.program(hit->material).emits();
+        const float share = aov_share.arrive(crossings, emits);
+        context_.scene().surfaces.write_aovs(*hit, wo, aovs_.writer(share, sample));
       }
       if (context_.scene().instances[hit->instance].holdout || shading.holdout >= 1.0f) {
         if (!done) {
@@ -275,6 +277,7 @@ class DataPasses final : public PassIntegrator {
   DataSettings data_;
   DataFilm& film_;
   DataChoice choice_;
+  bool surfaces_;  // does it want something of them?
   AovWriter aovs_;
   CameraView view_{};
   ObjectData surroundings_;  // of the world's point

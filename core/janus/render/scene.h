@@ -104,10 +104,12 @@ class Scene {
   bool has_links = false;         // some light does not shine on everything
   bool has_ray_types = false;     // that, or some object or light is not visible to all rays
   bool has_holdouts = false;      // of some object or surface
-  std::vector<std::string> aov_names;         // by the numbers that programs write
-  std::shared_ptr<const Program> world_aovs;  // null: the camera sees none in the background
   CameraDesc camera;
   Diagnostics diagnostics;
+  // Names of AOVs, by the numbers that programs write.
+  std::vector<std::string> aov_names;
+  // What the camera sees of them in the background; null: nothing.
+  std::shared_ptr<const Program> world_aovs;
   // Of a scene at a time of the shutter: the one that it was made of, with which it shares much.
   std::shared_ptr<const Scene> timeless;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // From a graph of nodes to instructions. Values are numbered as they are asked for, from the
-// closures and AOVs backwards (nothing else is compiled); operations on constants are carried out at once;
-// equal ones are shared. In the end, instructions that nobody reads are dropped and registers
-// handed out.
+// closures and AOVs backwards (nothing else is compiled); operations on constants are carried out
+// at once; equal ones are shared. In the end, instructions that nobody reads are dropped and
+// registers handed out.
 #pragma once
 
 #include <map>

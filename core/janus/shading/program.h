@@ -90,7 +90,9 @@ class Program {
   bool tangents = false;             // some attribute is a tangent
   Dependence dependence = Dependence::None;
   bool transmits = false;  // some closure scatters to the other side, or may
-  std::vector<AovWrite> aovs;  // of a program that does nothing else
+
+  // --- Of a program that does nothing else.
+  std::vector<AovWrite> aovs;
 
   Program();
   ~Program();

@@ -146,6 +146,18 @@ TEST(Aovs, AreProgramsOfTheirOwn) {
   expect(look(with_map), vec4(0.25f, 0.75f, 0, 1), 0);
 }
 
+// The camera sees another surface than light does, and its AOVs are those of the tree.
+TEST(Aovs, OfTreesThatAskWhoLooks) {
+  NodeGraph asks = combine("MIX_SHADER", diffuse(Rgb(1)), single("BSDF_TRANSPARENT", {}));
+  asks.nodes.push_back(node("Path", "LIGHT_PATH", {}));
+  for (const char* who : {"Is Camera Ray", "Is Shadow Ray", "Is Diffuse Ray"}) {
+    asks.nodes[2].inputs["Fac"] = link("Path", who);
+    const auto kit = stack({{asks, writes(kA, 1)}, {diffuse(Rgb(1)), writes(kB, 2)}});
+    const bool through = std::string(who) == "Is Camera Ray";
+    expect(look(kit), through ? vec4(kA + kB, 2) : vec4(kA, 1), through ? 3 : 1);
+  }
+}
+
 TEST(Aovs, OfOneNameAddUp) {
   NodeGraph graph = writes(kA, 1);
   graph.nodes.push_back(aov("Color", {{"Color", vec4(kB, 1)}}));
