@@ -95,6 +95,13 @@ TEST(Aovs, CountRoulette) {
   const Layer pane{thin(0.3f), writes(kB, 1)};
   expect(look(stack({pane, pane, pane})), vec4(kB, 1) * (1 + chance + chance * chance * kept),
          1 + chance + chance * chance * kept);
+  // Not before what emits; but behind it.
+  const Layer light{
+      combine("MIX_SHADER", single("BSDF_TRANSPARENT", {}), emission(Rgb(1), 1), 0.3f),
+      writes(kB, 1)};
+  const float first = chance * chance, second = first * kept * std::sqrt(0.94f * 0.7f);
+  expect(look(stack({pane, pane, light, pane})), vec4(kB, 1) * (1 + chance + first + second),
+         1 + chance + first + second);
   RenderSettings settings;
   settings.transparent_max_bounces = 1;
   expect(look(stack({pane, pane, pane}), settings), vec4(kB, 1) * (1 + chance), 1 + chance);
