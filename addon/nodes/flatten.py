@@ -2,7 +2,7 @@
 """Flattens a shader node tree into one plain graph.
 
 Groups are inlined, reroutes and muted nodes resolved, constant nodes folded, and only what the
-output reaches is kept. The format:
+output reaches is kept: that of the material, or those of AOVs, in a graph of their own. The format:
 
     {"nodes": [{"name", "type", "inputs": {identifier: value | {"link": [name, output]}},
                 "properties": {identifier: value}}],
@@ -18,7 +18,7 @@ import bpy
 
 from .convert import TRIPLES, conversion_node, convert, plain, socket_value
 from .drawn import constant_curves, drawn_properties
-from .links import CONSTANT_NODES, End, LinkReader, Scope
+from .links import CONSTANT_NODES, MUTED_ARE_LINKS, End, LinkReader, Scope
 
 # Property types that are plain data; pointers (ramps, curves) need code of their own.
 PLAIN_PROPERTIES = {"ENUM", "BOOLEAN", "INT", "FLOAT", "STRING"}
@@ -35,6 +35,8 @@ UNFOLDED = {"RGB", "INPUT_SCENE_TIME"}  # constants that Blender leaves to Cycle
 DIFFERENT_FOLDED = {"CURVE_FLOAT", "CURVE_RGB", "CURVE_VEC", "MAP_RANGE"}
 # Of Cycles before there was such a socket: Filter Width came with Blender 4.5.
 OLD_INPUTS = {"BUMP": {"Filter Width": 1.0}}
+# Of AOV Output, by the type of the AOV.
+AOV_INPUTS = {"COLOR": "Color", "VALUE": "Value"}
 RENAMED = {"DIFFUSE_BSDF": "BSDF_DIFFUSE"}  # in Blender 4.4, and only there
 
 
@@ -62,6 +64,32 @@ def flatten_tree(tree, scene, target: str = "CYCLES") -> dict:
     link = flattener.input(surface, Scope())
     flattener.run()
     return {"nodes": flattener.nodes, "surface": link}
+
+
+def flatten_aovs(tree, scene, wanted: dict[str, str]) -> dict | None:
+    """The graph of the tree's AOV Output nodes, at the time of the scene; None: there are none.
+
+    `wanted`: name of an AOV -> its type, COLOR or VALUE. Of a node only the input for that type
+    is kept.
+    """
+    flattener = _Flattener(scene)
+    for node, scope in _aov_outputs(tree, Scope()) if wanted else ():
+        if node.aov_name in wanted:
+            flattener.aov(node, scope, AOV_INPUTS[wanted[node.aov_name]])
+    flattener.run()
+    return {"nodes": flattener.nodes, "surface": None} if flattener.nodes else None
+
+
+def _aov_outputs(tree, scope: Scope, depth: int = 0):
+    """(AOV Output node, its scope), also of groups, whose output need not be used.
+
+    Blender 5.0 and later leaves muted ones as they are.
+    """
+    for node in tree.nodes if tree and depth < MAX_DEPTH else ():
+        if node.type == "OUTPUT_AOV" and (MUTED_ARE_LINKS or not node.mute):
+            yield node, scope
+        elif node.type == "GROUP" and not node.mute:
+            yield from _aov_outputs(node.node_tree, Scope("GROUP", node, scope), depth + 1)
 
 
 def diffuse_graph(color) -> dict:
@@ -93,6 +121,13 @@ class _Flattener:
             if node.type in DIFFERENT_FOLDED and self._is_folded(node, scope):
                 properties |= self._folded(node, scope)
             self._write(name, RENAMED.get(node.type, node.type), inputs, properties)
+
+    def aov(self, node, scope: Scope, identifier: str) -> None:
+        """Writes out an AOV Output node; of the rest no more than MAX_NODES are."""
+        if len(self.nodes) < MAX_NODES:
+            name = self._unique("/".join((*scope.labels, node.name)))
+            inputs = {identifier: self.input(node.inputs[identifier], scope)}
+            self._write(name, node.type, inputs, {"aov_name": node.aov_name})
 
     def input(self, socket, scope: Scope):
         """What the graph says for one input: a link, a value, or None."""

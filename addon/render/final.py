@@ -73,8 +73,8 @@ def _render(engine, depsgraph, frame, result, log, persistent) -> dict:
     with _user_errors(core):
         session = core.RenderSession(scene, settings)
     log.extend(session.diagnostics)
-    for name in unsupported(depsgraph.view_layer_eval):
-        log.warning(f"The pass '{name}' is not supported yet, it stays empty")
+    for problem in unsupported(depsgraph.view_layer_eval):
+        log.warning(problem)
     log.flush(engine)
     try:
         cancelled = _run(engine, session, settings, result)

@@ -2,19 +2,20 @@
 """Materials: each is sent once, under a key that holds for the whole sync."""
 
 from ..nodes import diffuse_graph
-from .graph import read_graph
+from .graph import read_aovs, read_graph
 from .world import uses_nodes
 
 
 class MaterialSync:
-    """Sends materials on first use."""
+    """Sends materials on first use. `aovs`: those that are wanted, see flatten_aovs()."""
 
-    def __init__(self, builder, depsgraph, images, cache, log):
+    def __init__(self, builder, depsgraph, images, cache, log, aovs):
         self._builder = builder
         self._cache = cache
         self._depsgraph = depsgraph
         self._override = depsgraph.view_layer_eval.material_override
         self._log = log
+        self._aovs = aovs
         self._images = images
         self._sent = {}  # key -> keys of the mesh attributes that it reads
 
@@ -36,12 +37,18 @@ class MaterialSync:
         if key not in self._sent:
             graph = self._graph(material)
             self._images.send(graph, material)
+            aovs = None
+            if uses_nodes(material):
+                aovs = read_aovs(material.node_tree, self._depsgraph, self._aovs)
+            if aovs:
+                self._images.send(aovs, material)
             self._sent[key] = self._builder.set_material(
                 key,
                 name=material.name,
                 graph=graph,
                 sample_emission=sample_emission(material),
                 material_index=material.pass_index,
+                aovs=aovs,
             )
         return key
 

@@ -46,6 +46,8 @@ OWN_DATA_PASSES = (
     ("denoising_store_passes", "Denoising Albedo", "RGB", "COLOR"),
     ("denoising_store_passes", "Denoising Depth", "Z", "VALUE"),
 )
+# Of an AOV by its type: the names of channels and Blender's type of a pass.
+AOV_CHANNELS = {"COLOR": ("RGBA", "COLOR"), "VALUE": ("X", "VALUE")}
 MATTES = ("Object", "Material", "Asset")
 FALLOFFS = {"QUADRATIC": 2.0, "LINEAR": 1.0, "INVERSE_QUADRATIC": 0.5}  # of mist: powers
 # What a denoiser looks at beside the picture, by Cycles' words for it.
@@ -85,7 +87,8 @@ def requested(scene, layer) -> list[Pass]:
     names += strategy_names(strategy_length(scene))
     noisy = [NOISY_IMAGE] if denoises(scene, layer) else []
     own = [Pass(name, name) for name in names]
-    return [*data_passes(layer), *light_passes(layer), *mattes(layer), *noisy, *own]
+    made = [Pass(aov.name, f"AOV {aov.name}", *AOV_CHANNELS[aov.type]) for aov in aovs(layer)]
+    return [*data_passes(layer), *light_passes(layer), *mattes(layer), *made, *noisy, *own]
 
 
 def denoises(scene, layer) -> bool:
@@ -123,6 +126,7 @@ def data_arguments(scene, layer) -> dict:
     mist = scene.world and scene.world.mist_settings
     return {
         "data_passes": list(dict.fromkeys([*wanted, *guides])),
+        "aovs": [(aov.name, aov.type) for aov in aovs(layer)],
         "cryptomatte": matte_kinds(layer),
         "cryptomatte_levels": matte_levels(layer),
         "pass_alpha_threshold": layer.pass_alpha_threshold,
@@ -174,12 +178,30 @@ def mattes(layer) -> list[Pass]:
     return [Pass(name, name, "rgba") for name in names]
 
 
+def aovs(layer) -> list:
+    """The layer's AOVs that are rendered."""
+    return [aov for aov in layer.aovs if not aov_problem(layer, aov)]
+
+
+def aov_problem(layer, aov) -> str:
+    """Why the layer's AOV is not rendered; empty if it is.
+
+    Blender compares names, too (is_valid), but not when a layer gets another engine.
+    """
+    taken = {COMBINED.name, NOISY_IMAGE.name}
+    taken |= {found.name for found in (*data_passes(layer), *light_passes(layer), *mattes(layer))}
+    taken |= {name for name, _ in expressions(layer)}
+    if aov.is_valid and aov.name not in taken:
+        return ""
+    return f"The AOV '{aov.name}' is not rendered: another pass has its name"
+
+
 def unsupported(layer) -> list[str]:
-    """Names of passes that the view layer asks for and does not get."""
+    """What to say of passes that the view layer asks for and does not get."""
     found = []
     if getattr(getattr(layer, "cycles", None), "use_pass_shadow_catcher", False):
-        found.append("Shadow Catcher")
-    return found + [aov.name for aov in layer.aovs if aov.is_valid]
+        found.append("The pass 'Shadow Catcher' is not supported yet, it stays empty")
+    return found + [problem for aov in layer.aovs if (problem := aov_problem(layer, aov))]
 
 
 def light_passes(layer) -> list[Pass]:

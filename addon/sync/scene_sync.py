@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One way from a depsgraph to a scene, for F12, viewports, captures and tests alike."""
 
+from . import passes
 from .cache import Changes, SceneCache
 from .camera import sync_camera
 from .image import ImageSync
@@ -32,11 +33,12 @@ def sync_scene(
     poll()
     cache = kept.cache if kept else SceneCache(builder)
     scene = depsgraph.scene_eval
+    aovs = {aov.name: aov.type for aov in passes.aovs(depsgraph.view_layer_eval)}
     open_at = shutter(scene, depsgraph.view_layer_eval) if set_frame else None
     if open_at is None:
         sync_camera(builder, depsgraph, log)
         changes = kept.take() if kept else None
-        sync_objects(builder, depsgraph, cache, log, changes, poll=poll)
+        sync_objects(builder, depsgraph, cache, log, changes, poll=poll, aovs=aovs)
     else:
 
         def look_at(time: float) -> None:
@@ -51,7 +53,9 @@ def sync_scene(
                 look_at(open_at.center)
             window = sync_camera(builder, depsgraph, log)
             changes = kept.take() if kept else None
-            sync_objects(builder, depsgraph, cache, log, changes, poll=poll, motion=motion)
+            sync_objects(
+                builder, depsgraph, cache, log, changes, poll=poll, motion=motion, aovs=aovs
+            )
             motion.run(builder, depsgraph, window, look_at, poll)
         finally:
             look_at(now)
@@ -71,14 +75,16 @@ def sync_objects(
     shown=None,
     poll=lambda: None,
     motion: MotionSync | None = None,
+    aovs: dict[str, str] | None = None,
 ) -> None:
     """Sends all but the camera. What `cache` knows from before and is not among the changes stays
     where it is. `shown`: see InstanceSync.run(). `motion` gets to know what can move.
+    `aovs`: those that are wanted, see flatten_aovs().
     """
     cache.begin(changes)
     images = ImageSync(builder, depsgraph, cache, log)
-    sync_world(builder, depsgraph, images, log)
+    sync_world(builder, depsgraph, images, log, aovs or {})
     check_scene(depsgraph, log)
-    materials = MaterialSync(builder, depsgraph, images, cache, log)
+    materials = MaterialSync(builder, depsgraph, images, cache, log, aovs or {})
     InstanceSync(builder, materials, images, cache, log, poll, motion).run(depsgraph, shown)
     cache.end()

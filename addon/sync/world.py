@@ -3,23 +3,26 @@
 
 import bpy
 
-from .graph import read_graph
+from .graph import read_aovs, read_graph
 from .visibility import LIGHT_RAYS, light_group
 
 
-def sync_world(builder, depsgraph, images, log) -> None:
-    """Sends the world of the view layer; no world is black."""
+def sync_world(builder, depsgraph, images, log, aovs: dict[str, str]) -> None:
+    """Sends the world of the view layer; no world is black. `aovs`: see flatten_aovs()."""
     layer = depsgraph.view_layer_eval
     world = getattr(layer, "world_override", None) or depsgraph.scene_eval.world
     if world is None:
         builder.set_world(name="", graph=None)
         return
+    written = None
     if uses_nodes(world):
         output = world.node_tree and world.node_tree.get_output_node("CYCLES")
         if output and output.inputs["Volume"].is_linked:
             log.warning("volumes are not supported yet", object=world.name)
         graph = read_graph(world.node_tree, depsgraph)
         images.send(graph, world)
+        if written := read_aovs(world.node_tree, depsgraph, aovs):
+            images.send(written, world)
     else:
         graph = background_graph(world.color)
     if getattr(getattr(world, "cycles", None), "max_bounces", 1024) < 1024:
@@ -28,6 +31,7 @@ def sync_world(builder, depsgraph, images, log) -> None:
         name=world.name,
         graph=graph,
         light_group=light_group(world, layer),
+        aovs=written,
         **seen_by_world(world),
     )
 

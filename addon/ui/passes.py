@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..sync.passes import name_problem
+from ..sync.passes import aov_problem, name_problem
 from .diagnostics import draw_text
 from .engine_panels import JanusPanel
 
@@ -110,6 +110,22 @@ class JANUS_VIEWLAYER_PT_passes_lightgroups(PassesPanel, bpy.types.Panel):
         column.menu("VIEWLAYER_MT_lightgroup_sync", icon="DOWNARROW_HLT", text="")
 
 
+class JANUS_VIEWLAYER_PT_passes_aov(PassesPanel, bpy.types.Panel):
+    bl_label = "Shader AOV"
+
+    def draw(self, context):
+        layer = context.view_layer
+        row = self.layout.row()
+        row.template_list(
+            "VIEWLAYER_UL_aov", "aovs", layer, "aovs", layer, "active_aov_index", rows=3
+        )
+        column = row.column(align=True)
+        column.operator("scene.view_layer_add_aov", icon="ADD", text="")
+        column.operator("scene.view_layer_remove_aov", icon="REMOVE", text="")
+        if layer.active_aov:
+            draw_problem(self.layout, aov_problem(layer, layer.active_aov))
+
+
 class JANUS_UL_light_path_expressions(bpy.types.UIList):
     def draw_item(self, context, layout, _data, item, _icon, _active, _property, _index=0, _flag=0):
         wrong = bool(item.message or name_problem(context.view_layer, item))
@@ -194,6 +210,7 @@ CLASSES = (
     JANUS_VIEWLAYER_PT_passes_data,
     JANUS_VIEWLAYER_PT_passes_light,
     JANUS_VIEWLAYER_PT_passes_cryptomatte,
+    JANUS_VIEWLAYER_PT_passes_aov,
     JANUS_VIEWLAYER_PT_passes_lightgroups,
     JANUS_UL_light_path_expressions,
     JANUS_VIEWLAYER_PT_passes_expressions,

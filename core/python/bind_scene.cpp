@@ -248,18 +248,28 @@ void bind_scene(py::module_& m) {
       .def(
           "set_material",
           [](SceneBuilder& self, Key key, std::string name, const py::dict& graph,
-             bool sample_emission, float material_index) {
-            NodeGraph nodes = to_graph(key, graph);
-            std::vector<std::string> attributes = required_attributes(nodes);
-            self.set_material(key,
-                              {std::move(name), std::move(nodes), sample_emission, material_index});
+             bool sample_emission, float material_index, const std::optional<py::dict>& aovs) {
+            MaterialDesc desc{std::move(name), to_graph(key, graph), sample_emission,
+                              material_index};
+            std::vector<std::string> attributes = required_attributes(desc.graph);
+            if (aovs) {
+              desc.aovs = to_graph(key, *aovs);
+              for (std::string& attribute : attributes_of_aovs(desc.aovs)) {
+                if (std::ranges::find(attributes, attribute) == attributes.end()) {
+                  attributes.push_back(std::move(attribute));
+                }
+              }
+            }
+            self.set_material(key, std::move(desc));
             return attributes;
           },
           "key"_a, py::kw_only(), "name"_a, "graph"_a, "sample_emission"_a = true,
-          "material_index"_a = 0.0f,
+          "material_index"_a = 0.0f, "aovs"_a = py::none(),
           "A surface, as a flattened node tree: {'nodes': [{'name', 'type', 'inputs', "
-          "'properties'}], 'surface': {'link': [node, output]} or None}. Returns the keys of the "
-          "attributes that it reads. Of a mesh: 'generated', 'normal', 'color:', 'uv:NAME', "
+          "'properties'}], 'surface': {'link': [node, output]} or None}; aovs: likewise a tree "
+          "that "
+          "ends in OUTPUT_AOV nodes, with the property aov_name. Returns the keys of the "
+          "attributes that they read. Of a mesh: 'generated', 'normal', 'color:', 'uv:NAME', "
           "'tangent:NAME', 'tangent_sign:NAME' (no name: the active one), 'attribute:NAME', "
           "'pointiness', 'random_per_island'. Of an instance: 'object:NAME', 'instancer:NAME', "
           "'dupli_generated', 'dupli_uv'.")
@@ -333,19 +343,23 @@ void bind_scene(py::module_& m) {
       .def(
           "set_world",
           [](SceneBuilder& self, std::string name, const std::optional<py::dict>& graph,
-             bool camera, bool diffuse, bool glossy, bool transmission, std::string light_group) {
+             bool camera, bool diffuse, bool glossy, bool transmission, std::string light_group,
+             const std::optional<py::dict>& aovs) {
             WorldDesc desc;
             desc.light_group = std::move(light_group);
             desc.visibility = to_mask(camera, diffuse, glossy, transmission);
             if (graph) {
               desc.graph = to_graph(name, *graph);
             }
+            if (aovs) {
+              desc.aovs = to_graph(name, *aovs);
+            }
             desc.name = std::move(name);
             self.set_world(std::move(desc));
           },
           py::kw_only(), "name"_a, "graph"_a, "visible_camera"_a = true, "visible_diffuse"_a = true,
           "visible_glossy"_a = true, "visible_transmission"_a = true, "light_group"_a = "",
-          "The background; graph None: black.")
+          "aovs"_a = py::none(), "The background; graph None: black; aovs as in set_material().")
       .def(
           "set_camera", &set_camera, py::kw_only(), "name"_a, "type"_a = "PERSP", "transform"_a,
           "window"_a, "clip_start"_a = 0.1f, "clip_end"_a = 1000.0f, "aperture_radius"_a = 0.0f,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bind.h"
+#include "bind_data.h"
 #include "janus/render/scene.h"
 #include "janus/session/session.h"
 #include "janus/util/error.h"
@@ -25,9 +25,6 @@ constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Wa
                                                  {"done", Progress::State::Done},
                                                  {"cancelled", Progress::State::Cancelled},
                                                  {"failed", Progress::State::Failed}};
-
-constexpr EnumName<MatteKind> kMatteKindNames[] = {
-    {"Object", MatteKind::Object}, {"Material", MatteKind::Material}, {"Asset", MatteKind::Asset}};
 
 // --- Settings
 // -------------------------------------------------------------------------------------
@@ -71,23 +68,6 @@ std::string complaint(const std::string& text, Parse&& parse) {
   return "";
 }
 
-DataChoice to_data(const std::vector<std::string>& passes, const std::vector<std::string>& mattes,
-                   int levels) {
-  DataChoice choice;
-  choice.matte_levels = levels;
-  for (const std::string& name : passes) {
-    const auto* found = std::ranges::find(kDataPasses, name, &DataPassInfo::name);
-    if (found == std::end(kDataPasses)) {
-      throw SceneError("settings", "data_passes", "there is no pass '" + name + "'");
-    }
-    choice.passes[found - kDataPasses] = true;
-  }
-  for (const std::string& name : mattes) {
-    choice.mattes[static_cast<size_t>(from_name(kMatteKindNames, name, "cryptomatte"))] = true;
-  }
-  return choice;
-}
-
 RenderSettings make_settings(
     int width, int height, const Crop& crop, int samples, float noise_threshold, int min_samples,
     double seconds, uint32_t seed, int threads, int max_bounces, int max_diffuse_bounces,
@@ -101,9 +81,9 @@ RenderSettings make_settings(
     const Expressions& expressions, const std::vector<std::string>& light_passes,
     int strategy_images, const std::vector<std::string>& data_passes,
     const std::vector<std::string>& cryptomatte, int cryptomatte_levels, float pass_alpha_threshold,
-    const std::array<float, 3>& mist, float occlusion_distance) {
+    const std::array<float, 3>& mist, float occlusion_distance, const AovList& aovs) {
   RenderSettings s;
-  s.data = to_data(data_passes, cryptomatte, cryptomatte_levels);
+  s.data = to_data(data_passes, cryptomatte, cryptomatte_levels, aovs);
   s.data_settings = {{mist[0], mist[1], mist[2]}, pass_alpha_threshold, occlusion_distance};
   s.width = width;
   s.height = height;
@@ -183,20 +163,7 @@ py::dict to_dict(const RenderSettings& s) {
   d["expressions"] = to_list(s.expressions);
   d["light_passes"] = s.light_passes;
   d["strategy_images"] = s.strategy_images;
-  py::list data_passes, cryptomatte;
-  for (size_t i = 0; i < kDataPassCount; ++i) {
-    if (s.data.passes[i]) {
-      data_passes.append(kDataPasses[i].name);
-    }
-  }
-  for (const auto& [name, kind] : kMatteKindNames) {
-    if (s.data.wants(kind)) {
-      cryptomatte.append(name);
-    }
-  }
-  d["data_passes"] = data_passes;
-  d["cryptomatte"] = cryptomatte;
-  d["cryptomatte_levels"] = s.data.matte_levels;
+  add_data(d, s.data);
   d["pass_alpha_threshold"] = s.data_settings.alpha_threshold;
   const Mist& mist = s.data_settings.mist;
   d["mist"] = py::make_tuple(mist.start, mist.depth, mist.falloff);
@@ -238,7 +205,9 @@ void bind_settings(py::module_& m) {
       "Denoising Depth, Debug Sample Count; cryptomatte: "
       "Object, Material, Asset, each in so many cryptomatte_levels (pictures of two ids); "
       "pass_alpha_threshold: surfaces with less alpha are looked through; occlusion_distance: how "
-      "far away the surroundings occlude (0: however far); mist: start and depth in metres, and "
+      "far away the surroundings occlude (0: however far); aovs: (name, COLOR or VALUE) of what "
+      "AOV Output "
+      "nodes write, the picture is called 'AOV name'; mist: start and depth in metres, and "
       "the power of the falloff; "
       "noise_threshold: pixels with less noise, as Cycles measures it, stop after min_samples (0: "
       "a number by the threshold); 0: none stops; motion_blur: whether what moves is blurred; "
@@ -271,7 +240,7 @@ void bind_settings(py::module_& m) {
       "pass_alpha_threshold"_a = d.data_settings.alpha_threshold,
       "mist"_a = std::array{d.data_settings.mist.start, d.data_settings.mist.depth,
                             d.data_settings.mist.falloff},
-      "occlusion_distance"_a = d.data_settings.occlusion_distance);
+      "occlusion_distance"_a = d.data_settings.occlusion_distance, "aovs"_a = AovList());
   settings.def("to_dict", &to_dict, "The keyword arguments that make these settings.");
   settings.def("__repr__", [](const RenderSettings& s) {
     return py::str("RenderSettings(**{!r})").format(to_dict(s));
@@ -402,7 +371,7 @@ void bind_session(py::module_& m) {
       .def(
           "manifest",
           [](const RenderSession& s, const std::string& kind) {
-            return s.manifest(from_name(kMatteKindNames, kind, "cryptomatte"));
+            return s.manifest(to_matte_kind(kind));
           },
           "kind"_a,
           "The names that Cryptomatte knows as Object, Material or Asset, with their hashes.")

@@ -41,8 +41,9 @@ py::str decode(const std::string& bytes) {
 using Pixels = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
 Image make_image(const Pixels& pixels) {
-  if (pixels.ndim() != 3 || (pixels.shape(2) != 3 && pixels.shape(2) != 4)) {
-    throw py::value_error("pixels must have the shape [height, width, 4] or [height, width, 3]");
+  const auto channels = pixels.ndim() == 3 ? pixels.shape(2) : 0;
+  if (channels != 3 && channels != 4 && channels != 1) {
+    throw py::value_error("pixels must have the shape [height, width, 4], or 3 or 1 for it");
   }
   constexpr py::ssize_t kMaxSide = 1 << 16;
   if (pixels.shape(0) > kMaxSide || pixels.shape(1) > kMaxSide) {
@@ -118,7 +119,8 @@ PYBIND11_MODULE(_exr, module, py::mod_gil_not_used()) {
   module.def("write", &janus::write, py::arg("path"), py::arg("pixels"), py::arg("metadata"),
              "Writes float32[H, W, 3 or 4], bottom row first, to the path (bytes).");
   module.def("write_layers", &janus::write_layers, py::arg("path"), py::arg("layers"),
-             py::arg("metadata"), "The same for (name, pixels) of several pictures of one size.");
+             py::arg("metadata"),
+             "The same for (name, pixels) of several pictures of one size, or float32[H, W, 1].");
   module.def("read_layers", &janus::read_layers, py::arg("path"),
              "([(name, float32[H, W, 3 or 4] bottom row first)], metadata) of all that is RGB.");
   module.def("read", &janus::read, py::arg("path"),

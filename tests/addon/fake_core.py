@@ -203,7 +203,7 @@ class FakeSession:
         names += settings.data_passes
         for kind in settings.cryptomatte:
             names += [f"Crypto{kind}{level:02d}" for level in range(settings.cryptomatte_levels)]
-        return names
+        return names + [f"AOV {name}" for name, _ in settings.aovs]
 
     def manifest(self, kind):
         return {f"any {kind}": "01234567"}
@@ -214,6 +214,8 @@ class FakeSession:
         self.snapshots += 1
         x0, y0, x1, y1 = self.settings.crop or (0, 0, self.settings.width, self.settings.height)
         channels = 4 if not number or name.startswith("Crypto") else CHANNELS.get(name, 3)
+        kinds = {f"AOV {aov}": 4 if kind == "COLOR" else 1 for aov, kind in self.settings.aovs}
+        channels = kinds.get(name, channels)
         pixels = np.empty((y1 - y0, x1 - x0, channels), dtype=np.float32)
         pixels[:] = (number or self.core.color) if self.samples else 0.0
         return pixels

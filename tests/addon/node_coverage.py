@@ -19,7 +19,6 @@ REFUSED = {
     "DISPLACEMENT": "displacement; named for the material",
     "LIGHT_FALLOFF": "the distance to what is lit",
     "MATERIAL_RAYCAST": "needs rays of its own",
-    "OUTPUT_AOV": "passes; the picture is the same without it",
     "PARTICLE_INFO": "particles",
     "POINT_INFO": "point clouds",
     "PRINCIPLED_VOLUME": "volume; named for the material",

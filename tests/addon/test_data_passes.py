@@ -25,6 +25,9 @@ def layer(scene):
     for settings in (layer.janus, layer.cycles):
         settings.denoising_store_passes = settings.pass_debug_sample_count = True
         settings.use_denoising = False
+    for name, kind in (("Tint", "COLOR"), ("Mask", "VALUE")):
+        aov = layer.aovs.add()
+        aov.name, aov.type = name, kind
     return layer
 
 
@@ -106,10 +109,8 @@ def test_uv_needs_no_material_that_reads_it(scene, layer, core, tmp_path):
 
 def test_what_is_not_made_is_said(scene, layer, core):
     layer.cycles.use_pass_shadow_catcher = True
-    layer.aovs.add().name = "Mask"
     bpy.ops.render.render()
-    text = " ".join(messages())
-    assert all(f"'{name}' is not supported" in text for name in ("Shadow Catcher", "Mask"))
+    assert "'Shadow Catcher' is not supported" in " ".join(messages())
 
 
 def test_mist_is_the_worlds(scene, layer):

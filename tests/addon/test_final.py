@@ -80,6 +80,7 @@ def test_settings_reach_the_core(scene, fake_core):
         "occlusion_distance": 0.0,
         "noise_threshold": 0.0,
         "min_samples": 0,
+        "aovs": [],
         "cryptomatte": [],
         "cryptomatte_levels": 3,
         "pass_alpha_threshold": 0.5,

@@ -86,6 +86,17 @@ def test_data_passes_and_cryptomatte(scene):
     assert all(hasattr(layer, name) for name in drawn)
 
 
+def test_aovs(scene):
+    layer = scene.view_layers[0]
+    shown = ["aovs", "scene.view_layer_add_aov", "scene.view_layer_remove_aov"]
+    assert draw("JANUS_VIEWLAYER_PT_passes_aov") == shown
+    layer.aovs.add().name = "Direct"
+    assert draw("JANUS_VIEWLAYER_PT_passes_aov") == shown
+    layer.janus.use_pass_direct = True
+    *drawn, problem = draw("JANUS_VIEWLAYER_PT_passes_aov")
+    assert drawn == shown and "another pass" in problem[0] and problem[2]
+
+
 def test_previews_are_of_what_is_chosen(scene):
     drawn = []
     layout = SimpleNamespace(template_preview=drawn.append)

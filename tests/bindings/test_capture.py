@@ -259,6 +259,34 @@ def test_command_writes_passes(captured, tmp_path):
     assert command(path, "-o", out, "--pass", "LS+DE").returncode == 2
 
 
+def test_aovs_are_captured(tmp_path):
+    def written(**inputs):
+        end = {"name": "End", "type": "OUTPUT_AOV", "inputs": inputs}
+        return {"nodes": [end | {"properties": {"aov_name": "Mask"}}], "surface": None}
+
+    builder = capture.CapturingBuilder()
+    fill(builder)
+    builder.set_world(name="World", graph=None, aovs=written(Value=-2.0))
+    for key, arguments in builder._items["material"].items():
+        builder.set_material(key, **arguments, aovs=written(Value=3.0))
+    settings = janus_core.RenderSettings(**SETTINGS, aovs=[("Mask", "VALUE"), ("Tint", "COLOR")])
+    builder.save(tmp_path / "scene.npz", settings)
+    again, found = capture.load(tmp_path / "scene.npz")
+    assert found == settings and found.aovs == [("Mask", "VALUE"), ("Tint", "COLOR")]
+    pictures = [
+        render(scene.commit(), aovs=settings.aovs).snapshot("AOV Mask")
+        for scene in (builder, again)
+    ]
+    assert np.array_equal(*pictures)
+    assert pictures[0].max() == 3.0 and pictures[0].min() >= -2.0
+    out = tmp_path / "out.exr"
+    done = command(tmp_path / "scene.npz", "-o", out)
+    assert done.returncode == 0, done.stderr
+    layers, _ = exr.read_layers(out)
+    assert np.array_equal(layers["AOV Mask"], pictures[0])
+    assert layers["AOV Tint"].shape[2] == 4 and not layers["AOV Tint"].any()
+
+
 def test_exit_codes(captured, tmp_path):
     path, _ = captured
     out = tmp_path / "out.exr"

@@ -54,6 +54,8 @@ def test_exposure_and_glass_of_the_film(builder):
 def test_wrong_words_and_types():
     with pytest.raises(ValueError, match="bdpt, pt, lt"):
         janus_core.RenderSettings(integrator="magic")
+    with pytest.raises(ValueError, match="COLOR, VALUE"):
+        janus_core.RenderSettings(aovs=[("Mask", "VECTOR")])
     with pytest.raises(TypeError):
         janus_core.RenderSettings(sampels=3)
     with pytest.raises(TypeError):

@@ -2,6 +2,7 @@
 #include "janus/film/data_film.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "janus/util/error.h"
 
@@ -40,20 +41,26 @@ std::vector<std::string> DataChoice::names() const {
       found.push_back(level_name(kind, level));
     }
   }
+  for (const AovPass& aov : aovs) {
+    found.push_back(aov.picture());
+  }
   return found;
 }
 
 DataFilm::DataFilm(FilmRect rect, DataChoice choice)
-    : rect_(rect), choice_(choice), counts_(rect.pixels()) {
+    : rect_(rect), choice_(std::move(choice)), counts_(rect.pixels()) {
   for (size_t i = 0; i < kDataPassCount; ++i) {
-    if (choice.passes[i]) {
+    if (choice_.passes[i]) {
       passes_[i].resize(rect.pixels() * kDataPasses[i].kept());
     }
   }
   for (size_t kind = 0; kind < kMatteKinds; ++kind) {
-    if (choice.mattes[kind]) {
+    if (choice_.mattes[kind]) {
       mattes_[kind].resize(rect.pixels() * slots());
     }
+  }
+  for (const AovPass& aov : choice_.aovs) {
+    aovs_.emplace_back(rect.pixels() * aov.channels());
   }
 }
 
@@ -64,6 +71,9 @@ size_t DataFilm::bytes(const FilmRect& rect, const DataChoice& choice) {
   }
   for (const bool wanted : choice.mattes) {
     floats += wanted ? 4 * static_cast<size_t>(choice.matte_levels) : 0;
+  }
+  for (const AovPass& aov : choice.aovs) {
+    floats += aov.channels();
   }
   return rect.pixels() * floats * sizeof(float);
 }
@@ -96,6 +106,12 @@ void DataFilm::add(size_t first, std::span<const std::optional<DataSample>> samp
         }
       }
     }
+    for (size_t i = 0; i < sample.aovs.size(); ++i) {
+      const size_t channels = choice_.aovs[i].channels();
+      for (size_t k = 0; k < channels; ++k) {
+        aovs_[i][pixel * channels + k] += sample.aovs[i][static_cast<int>(k)];
+      }
+    }
   }
 }
 
@@ -111,6 +127,10 @@ Image DataFilm::develop(const std::string& name) const {
         return develop_matte(kind, level);
       }
     }
+  }
+  const auto aov = std::ranges::find(choice_.aovs, name, &AovPass::picture);
+  if (aov != choice_.aovs.end()) {
+    return develop_aov(static_cast<size_t>(aov - choice_.aovs.begin()));
   }
   throw Error("there is no pass '" + name + "'");
 }
@@ -141,6 +161,17 @@ Image DataFilm::develop_pass(size_t pass) const {
       }
       image.pixels[pixel * channels + c] = value;
     }
+  }
+  return image;
+}
+
+Image DataFilm::develop_aov(size_t aov) const {
+  const size_t channels = choice_.aovs[aov].channels();
+  Image image(rect_.width(), rect_.height(), static_cast<int>(channels));
+  const std::lock_guard lock(mutex_);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const uint32_t samples = counts_[i / channels];
+    image.pixels[i] = samples > 0 ? aovs_[aov][i] / static_cast<float>(samples) : 0.0f;
   }
   return image;
 }

@@ -59,11 +59,22 @@ enum class MatteKind : uint8_t { Object, Material, Asset };
 inline constexpr const char* kMatteNames[] = {"CryptoObject", "CryptoMaterial", "CryptoAsset"};
 inline constexpr size_t kMatteKinds = std::size(kMatteNames);
 
+// An AOV of a view layer.
+struct AovPass {
+  std::string name;
+  bool color = true;  // what the nodes' Color says, and alpha; false: their Value
+
+  size_t channels() const { return color ? 4 : 1; }
+  // Of its picture: a name that no other pass has.
+  std::string picture() const { return "AOV " + name; }
+};
+
 // Which passes are wanted.
 struct DataChoice {
   bool passes[kDataPassCount] = {};
   bool mattes[kMatteKinds] = {};
   int matte_levels = 3;  // pictures of two ids each
+  std::vector<AovPass> aovs;
 
   bool wants(DataPass pass) const { return passes[static_cast<size_t>(pass)]; }
   bool wants(MatteKind kind) const { return mattes[static_cast<size_t>(kind)]; }
@@ -86,6 +97,7 @@ struct DataSample {
     float weight;
   };
   std::vector<Matte> mattes;
+  std::vector<vec4> aovs;  // as many as are wanted, or none
 
   void set(DataPass pass, vec3 value) {
     float* to = values[static_cast<size_t>(pass)];
@@ -121,6 +133,7 @@ class DataFilm {
   std::span<Coverage> coverages(size_t pixel, size_t kind);
   Image develop_pass(size_t pass) const;
   Image develop_matte(size_t kind, size_t level) const;
+  Image develop_aov(size_t aov) const;
 
   FilmRect rect_;
   DataChoice choice_;
@@ -128,6 +141,7 @@ class DataFilm {
   std::vector<uint32_t> counts_;
   std::vector<float> passes_[kDataPassCount];  // of those that are wanted, what is kept in a row
   std::vector<Coverage> mattes_[kMatteKinds];
+  std::vector<std::vector<float>> aovs_;
 };
 
 }  // namespace janus

@@ -20,11 +20,24 @@ uint32_t Surfaces::add_program(Program program, const std::string& material, flo
   return static_cast<uint32_t>(surfaces_.size() - 1);
 }
 
+void Surfaces::add_aovs(uint32_t surface, Program aovs) {
+  shared_->programs.push_back(std::make_unique<const Program>(std::move(aovs)));
+  ++shared_->aov_programs;
+  surfaces_[surface].aovs = static_cast<uint32_t>(surfaces_.size());
+  surfaces_.push_back({shared_->programs.back().get(), nullptr, material_index(surface),
+                       material(surface), false});
+}
+
 uint32_t Surfaces::bind(uint32_t surface, const Shape& shape,
                         const std::map<std::string, vec4>& own) {
   const Program& program = *surfaces_[surface].program;
   const bool one_way = program.fibers || (shape.round() && program.transmits);
-  if (program.attributes.empty() && one_way == surfaces_[surface].one_way) {
+  uint32_t aovs = surfaces_[surface].aovs;
+  if (aovs != 0) {
+    aovs = bind(aovs, shape, own);
+  }
+  if (program.attributes.empty() && one_way == surfaces_[surface].one_way &&
+      aovs == surfaces_[surface].aovs) {
     return surface;
   }
   std::vector<float> read;
@@ -33,7 +46,8 @@ uint32_t Surfaces::bind(uint32_t surface, const Shape& shape,
       read.insert(read.end(), &found->second.x, &found->second.x + 4);
     }
   }
-  const auto [entry, fresh] = shared_->bound.try_emplace({surface, &shape, std::move(read)}, 0);
+  const auto [entry, fresh] =
+      shared_->bound.try_emplace({surface, &shape, std::move(read), aovs}, 0);
   if (fresh) {
     auto slots = std::make_unique<const AttributeDesc*[]>(program.attributes.size());
     const auto find = [&](const std::string& key) {
@@ -49,7 +63,7 @@ uint32_t Surfaces::bind(uint32_t surface, const Shape& shape,
     std::transform(program.attributes.begin(), program.attributes.end(), slots.get(), find);
     entry->second = static_cast<uint32_t>(surfaces_.size());
     surfaces_.push_back(
-        {&program, slots.get(), material_index(surface), material(surface), one_way});
+        {&program, slots.get(), material_index(surface), material(surface), one_way, aovs});
     shared_->attributes.push_back(std::move(slots));
   }
   return entry->second;
@@ -59,7 +73,7 @@ void Surfaces::set_objects(const ShapeList& shapes, const std::vector<Instance>&
                            const CameraView& camera, const PixelFootprint& footprint) {
   footprint_ = footprint;
   const bool needed = std::any_of(shared_->programs.begin(), shared_->programs.end(),
-                                  [](const auto& program) { return !program->constant(); });
+                                  [](const auto& p) { return !p->constant() || !p->aovs.empty(); });
   if (!needed) {
     return;
   }

@@ -28,8 +28,11 @@ class Surfaces {
   // A program of a material and its pass index; its number.
   uint32_t add_program(Program program, const std::string& material, float material_index = 0.0f);
   const Program& program(uint32_t surface) const { return *surfaces_[surface].program; }
-  // Programs, the default surface included.
-  size_t size() const { return shared_->programs.size(); }
+  // What the AOV Output nodes of a program's tree write where the camera sees it. To be added
+  // before the program is bound.
+  void add_aovs(uint32_t surface, Program aovs);
+  // Programs, the default surface included, and those of AOVs not.
+  size_t size() const { return shared_->programs.size() - shared_->aov_programs; }
   // What passes of data tell apart: the material of a surface, as a number in material_names(), and
   // its pass index.
   uint32_t material(uint32_t surface) const { return surfaces_[surface].material; }
@@ -71,6 +74,15 @@ class Surfaces {
   }
   ShadingPoint point(const SurfaceInteraction& hit, vec3 view) const;
 
+  // Calls write(aov, color, value) for what AOV Output nodes write there.
+  template <class Write>
+  void write_aovs(SurfaceInteraction hit, vec3 view, Write&& write) const {
+    hit.material = surfaces_[hit.material].aovs;
+    if (hit.material != 0) {
+      program(hit.material).run_aovs(point(hit, view), write);
+    }
+  }
+
  private:
   struct Surface {
     const Program* program;
@@ -80,15 +92,17 @@ class Surfaces {
     // Light goes through the inside of what is round in an event of the surface, where the camera
     // sees it: see Bsdf::one_way().
     bool one_way;
+    uint32_t aovs = 0;  // the surface whose program writes AOVs; 0, the default surface: none
   };
   struct Shared {
     std::vector<std::unique_ptr<const Program>> programs;
     std::vector<std::string> material_names;
     std::vector<std::unique_ptr<const AttributeDesc*[]>> attributes;
-    // By program, shape, and what it reads of the instance.
-    std::map<std::tuple<uint32_t, const Shape*, std::vector<float>>, uint32_t> bound;
+    // By program, shape, what it reads of the instance, and its AOVs.
+    std::map<std::tuple<uint32_t, const Shape*, std::vector<float>, uint32_t>, uint32_t> bound;
     std::vector<std::unique_ptr<const AttributeDesc>> own;  // of instances
     bool any_delta = false;
+    size_t aov_programs = 0;
   };
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   std::vector<Surface> surfaces_;  // those of add_program(), then those of bind()

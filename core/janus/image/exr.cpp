@@ -30,12 +30,11 @@ namespace janus {
 namespace {
 
 using ChannelNames = std::string_view;  // a letter for each component of a pixel; a dot: none
-constexpr ChannelNames kRgba = "RGBA", kGrey = "Y..A";
+constexpr ChannelNames kRgba = "RGBA", kGrey = "Y..A", kNumber = "X";
 // Of the layers that are read, the longer ones first: colours, Cryptomatte, data.
 constexpr ChannelNames kLayerNames[] = {kRgba, "RGB", "rgba", "XYZW", "XYZ", "UVA", "Z", "X"};
 
-// --- Writing
-// --------------------------------------------------------------------------------------
+// --- Writing -------------------------------------------------------------------------------------
 
 [[noreturn]] void fail_to_write(const std::string& path, const std::string& why) {
   throw IoError("cannot write " + path + ": " + why);
@@ -110,6 +109,8 @@ class OutputStream final : public Imf::OStream {
   uint64_t position_ = 0, size_ = 0;
 };
 
+ChannelNames names_of(const Image& image) { return image.channels == 1 ? kNumber : kRgba; }
+
 std::string channel_name(const std::string& layer, char channel) {
   return (layer.empty() ? layer : layer + ".") + channel;
 }
@@ -121,7 +122,7 @@ Imf::Header make_header(const std::string& path, const std::vector<ExrLayer>& la
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const ExrLayer& layer : layers) {
     for (int c = 0; c < layer.image.channels; ++c) {
-      const std::string name = channel_name(layer.name, kRgba[c]);
+      const std::string name = channel_name(layer.name, names_of(layer.image)[c]);
       if (name.size() > 255 || name.find('\0') != std::string::npos) {
         fail_to_write(path, "the name of a layer must have at most 253 bytes, none of them 0");
       }
@@ -172,11 +173,10 @@ void write_pixels(OutputStream& stream, const Imf::Header& header, std::vector<E
   Imf::OutputFile file(stream, header);
   Imf::FrameBuffer buffer;
   for (ExrLayer& layer : layers) {
-    insert_slices(buffer, layer.image, layer.name, kRgba, 0, 0);
+    insert_slices(buffer, layer.image, layer.name, names_of(layer.image), 0, 0);
   }
   file.setFrameBuffer(buffer);
-  // In parts, so that a full disk is noticed long before the end of a large picture.
-  constexpr int kRows = 256;
+  constexpr int kRows = 256;  // so that a full disk is noticed long before the end
   const int height = layers.front().image.height;
   for (int y = 0; y < height && stream.error() == 0; y += kRows) {
     file.writePixels(std::min(kRows, height - y));
@@ -189,8 +189,9 @@ void check_layers(const std::string& path, const std::vector<ExrLayer>& layers) 
   }
   const Image& first = layers.front().image;
   for (const auto& [name, image] : layers) {
-    if (image.width < 1 || image.height < 1 || (image.channels != 3 && image.channels != 4)) {
-      fail_to_write(path, "an image has at least 1x1 pixels of 3 or 4 channels");
+    const int least = name.empty() ? 3 : 1, count = image.channels == 2 ? 0 : image.channels;
+    if (image.width < 1 || image.height < 1 || count < least || count > 4) {
+      fail_to_write(path, "an image has at least 1x1 pixels of 3 or 4 channels, or a name and 1");
     }
     if (image.width != first.width || image.height != first.height) {
       fail_to_write(path, "layer '" + name + "' has another size than the first");
@@ -258,8 +259,7 @@ void write_exr(const std::string& path, std::vector<ExrLayer> layers, const Meta
   }
 }
 
-// --- Reading
-// --------------------------------------------------------------------------------------
+// --- Reading -------------------------------------------------------------------------------------
 
 namespace {
 

@@ -23,7 +23,7 @@ void write_exr(const std::string& path, const Image& image, const Metadata& meta
 // the name is empty.
 struct ExrLayer {
   std::string name;
-  Image image;  // 3 channels: R, G, B; 4: R, G, B, A
+  Image image;  // 3 channels: R, G, B; 4: R, G, B, A; where there is a name, 1: X
 };
 
 // The same for layers of one size, whose names differ.

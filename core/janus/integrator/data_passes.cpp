@@ -3,8 +3,10 @@
 
 #include <functional>
 
+#include "janus/integrator/aovs.h"
 #include "janus/integrator/pass.h"
 #include "janus/integrator/picture_motion.h"
+#include "janus/light/program_sky.h"
 #include "janus/math/frame.h"
 #include "janus/math/warp.h"
 #include "janus/render/time_slice.h"
@@ -24,7 +26,12 @@ class DataPasses final : public PassIntegrator {
  public:
   DataPasses(const RenderContext& context, const IntegratorSettings& settings,
              const DataSettings& data, DataFilm& film)
-      : PassIntegrator(context, settings), data_(data), film_(film), choice_(film.choice()) {
+      : PassIntegrator(context, settings),
+        data_(data),
+        film_(film),
+        choice_(film.choice()),
+        surfaces_(choice_.surfaces()),
+        aovs_(context.scene().aov_names, choice_.aovs) {
     for (const std::string& name : context.scene().surfaces.material_names()) {
       material_ids_.push_back(id_of(name));
     }
@@ -40,6 +47,7 @@ class DataPasses final : public PassIntegrator {
   void render_wave(const Wave& wave) override {
     const CameraDesc& camera = context_.scene().camera;
     view_ = view_of(camera);
+    surroundings_ = no_object(view_);
     eye_ = vec3(camera.transform[3]);
     forward_ = -vec3(camera.transform[2]);
     const size_t width = context_.film.rect().width();
@@ -67,7 +75,7 @@ class DataPasses final : public PassIntegrator {
       return;
     }
     const Ray& ray = seen.ray;
-    if (choice_.surfaces()) {
+    if (surfaces_) {
       look_straight(ray, sampler, sample, counters);
     }
     if (choice_.features()) {
@@ -78,6 +86,7 @@ class DataPasses final : public PassIntegrator {
   // Follows the camera's ray through what is transparent.
   void look_straight(Ray ray, Sampler& sampler, DataSample& sample, Counters& counters) const {
     Rgb through(1.0f);
+    AovShare aov_share;
     bool done = false;  // have the passes that are means got their surface?
     for (int crossings = 0; crossings <= settings_.walk.max_crossings; ++crossings) {
       ++counters.camera_rays;
@@ -85,11 +94,17 @@ class DataPasses final : public PassIntegrator {
       if (!hit) {
         if (!done) {
           see_nothing(sample);
+          write_background_aovs(ray.direction, aov_share.value(), sample);
         }
         return;
       }
       const vec3 wo = -ray.direction;
       const ShadingResult shading = context_.scene().shade(*hit, wo);
+      if (!done && !choice_.aovs.empty()) {
+        const bool emits = context_.scene().surfaces.program(hit->material).emits();
+        const float share = aov_share.arrive(crossings, emits);
+        context_.scene().surfaces.write_aovs(*hit, wo, aovs_.writer(share, sample));
+      }
       if (context_.scene().instances[hit->instance].holdout || shading.holdout >= 1.0f) {
         if (!done) {
           see_nothing(sample);
@@ -114,12 +129,20 @@ class DataPasses final : public PassIntegrator {
                 open_sky(*hit, shading.bsdf.view(hit->ng, hit->ns), wo, sampler.next_2d()));
       }
       see_mattes(*hit, average(through) * alpha, sample);
+      aov_share.cross(shading);
       through *= shading.transparency;
       if (is_black(through)) {
         return;
       }
       ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, ray.direction), ray.direction,
                 ray.t_max - glm::length(hit->p - ray.origin)};
+    }
+  }
+
+  void write_background_aovs(vec3 direction, float share, DataSample& sample) const {
+    const Program* program = context_.scene().world_aovs.get();
+    if (program && !choice_.aovs.empty() && !settings_.walk.film_transparent) {
+      program->run_aovs(sky_point(direction, surroundings_), aovs_.writer(share, sample));
     }
   }
 
@@ -254,7 +277,10 @@ class DataPasses final : public PassIntegrator {
   DataSettings data_;
   DataFilm& film_;
   DataChoice choice_;
+  bool surfaces_;  // does it want something of them?
+  AovWriter aovs_;
   CameraView view_{};
+  ObjectData surroundings_;  // of the world's point
   vec3 eye_{}, forward_{};
   std::optional<PictureMotion> motion_;
   std::vector<float> material_ids_, object_ids_, asset_ids_;

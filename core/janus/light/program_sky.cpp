@@ -28,7 +28,8 @@ int widest_picture(const Program& program) {
   return width;
 }
 
-// No object, as programs see it.
+}  // namespace
+
 ObjectData no_object(const CameraView& camera) {
   ObjectData object;
   object.camera = camera;
@@ -36,7 +37,14 @@ ObjectData no_object(const CameraView& camera) {
   return object;
 }
 
-}  // namespace
+ShadingPoint sky_point(vec3 direction, const ObjectData& surroundings) {
+  ShadingPoint point{};
+  point.p = direction;
+  point.ng = point.ns = point.view = point.object_normal = -direction;
+  point.object = &surroundings;
+  point.footprint = 1e-2f;
+  return point;
+}
 
 ProgramSky::ProgramSky(Program program, const CameraView& camera, bool sampled,
                        const CancelToken& cancel)
@@ -45,13 +53,8 @@ ProgramSky::ProgramSky(Program program, const CameraView& camera, bool sampled,
       map_(measure(sampled, cancel)) {}
 
 Rgb ProgramSky::radiance(vec3 direction) const {
-  ShadingPoint point{};
-  point.p = direction;
-  point.ng = point.ns = point.view = point.object_normal = -direction;
-  point.object = &surroundings_;
-  point.footprint = 1e-2f;
   ShadingResult result;
-  program_.run(point, result);
+  program_.run(sky_point(direction, surroundings_), result);
   return is_finite(result.emission) ? result.emission : Rgb(0.0f);
 }
 

@@ -9,13 +9,18 @@
 
 namespace janus {
 
+// What the program of a world knows of objects: there is none.
+ObjectData no_object(const CameraView& camera);
+// The point where Cycles runs it: `direction`, of a sphere that looks inwards.
+ShadingPoint sky_point(vec3 direction, const ObjectData& surroundings);
+
 class ProgramSky {
  public:
   // `sampled`: light is looked for in it, so that its brightness is measured first, which may take
   // a while; else it shines to the camera alone. Throws Cancelled.
   ProgramSky(Program program, const CameraView& camera, bool sampled, const CancelToken& cancel);
 
-  // Runs the program, as Cycles does: at the point `direction`, of a sphere that looks inwards.
+  // Runs the program.
   Rgb radiance(vec3 direction) const;
 
   // A direction, drawn with pdf_solid(). That is constant in each cell of a grid, near the cell's

@@ -40,6 +40,10 @@ class Commit {
         program.sample_emission = desc.sample_emission;
         programs[i] = scene_.surfaces.add_program(std::move(program), name, desc.material_index);
       }
+      const auto camera = std::ranges::find(kRays, RayType::Camera) - std::begin(kRays);
+      add_aovs(desc.aovs, name, images, SeenTree::Of::Surface, [&](Program program) {
+        scene_.surfaces.add_aovs(programs[camera], std::move(program));
+      });
     }
   }
 
@@ -152,6 +156,11 @@ class Commit {
          make_world(world, images, view_of(camera), surroundings(), scene_.diagnostics, cancel_)) {
       add_light(std::move(light));
     }
+    if (contains(world.visibility, RayType::Camera)) {
+      add_aovs(world.aovs, world.name, images, SeenTree::Of::World, [&](Program program) {
+        scene_.world_aovs = std::make_shared<const Program>(std::move(program));
+      });
+    }
   }
 
   void finish() {
@@ -174,6 +183,17 @@ class Commit {
  private:
   void warn(const std::string& object, const std::string& message) {
     scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
+  }
+
+  // add(program): of the AOVs that the camera sees, if there are any.
+  template <class Add>
+  void add_aovs(const NodeGraph& graph, const std::string& name, const ImageMap& images,
+                SeenTree::Of of, Add&& add) {
+    if (!graph.nodes.empty()) {
+      Diagnostics said;
+      add(compile_aovs(graph, name, images, scene_.aov_names, said, {of, RayType::Camera}));
+      add_new(scene_.diagnostics, said);
+    }
   }
 
   // What stands in the way of a light's shadow rays of their own type.

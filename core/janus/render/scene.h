@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "janus/geometry/accel.h"
@@ -104,6 +105,10 @@ class Scene {
   bool has_holdouts = false;      // of some object or surface
   CameraDesc camera;
   Diagnostics diagnostics;
+  // Names of AOVs, by the numbers that programs write.
+  std::vector<std::string> aov_names;
+  // What the camera sees of them in the background; null: nothing.
+  std::shared_ptr<const Program> world_aovs;
   // Of a scene at a time of the shutter: the one that it was made of, with which it shares much.
   std::shared_ptr<const Scene> timeless;
 

@@ -90,6 +90,7 @@ struct MaterialDesc {
   NodeGraph graph;
   bool sample_emission = true;  // false: what it emits is found by chance only
   float material_index = 0.0f;  // the pass index
+  NodeGraph aovs{};             // that ends in AOV Output nodes
 };
 
 // A picture for texture nodes, which name its key in their property "image".
@@ -132,6 +133,7 @@ struct WorldDesc {
   std::optional<NodeGraph> graph;  // nullopt: black
   RayMask visibility = kAllRays;   // to the camera, and to labels
   std::string light_group{};       // empty: none
+  NodeGraph aovs{};                // that ends in AOV Output nodes
 };
 
 // All but the first two are panoramas: see panorama.h.

@@ -75,7 +75,7 @@ void RenderSettings::validate() const {
           "mist", "needs a start, a depth of at least 0, and a falloff above 0");
   std::set<std::string> names{"Combined"};
   for (const std::string& name : data.names()) {
-    names.insert(name);
+    require(names.insert(name).second, "aovs", "two of them have the same name");
   }
   for (const std::string& name : light_passes) {
     if (!is_light_pass(name)) {

@@ -108,9 +108,34 @@ Program compile(const NodeGraph& graph, const std::string& material, const Image
   return ClosureTree(graph, material, images, diagnostics, seen).compile();
 }
 
+Program compile_aovs(const NodeGraph& graph, const std::string& material, const ImageMap& images,
+                     std::vector<std::string>& names, Diagnostics& diagnostics, SeenTree seen) {
+  GraphCompiler compiler(graph, material, images, diagnostics, seen);
+  const NodeDecl& decl = *find_node_type("OUTPUT_AOV");
+  for (const Node& node : graph.nodes) {
+    if (node.type != decl.type) {
+      continue;
+    }
+    const NodeReader reader(node, decl, material, diagnostics);
+    const auto name = std::ranges::find(names, reader.property("aov_name", ""));
+    const auto number = static_cast<uint32_t>(name - names.begin());
+    if (name == names.end()) {
+      names.push_back(reader.property("aov_name", ""));
+    }
+    compiler.aov(reader, number);
+  }
+  return compiler.finish();
+}
+
 std::vector<std::string> required_attributes(const NodeGraph& graph) {
   Diagnostics ignored;
   return compile(graph, "", {}, ignored).attributes;
+}
+
+std::vector<std::string> attributes_of_aovs(const NodeGraph& graph) {
+  Diagnostics ignored;
+  std::vector<std::string> names;
+  return compile_aovs(graph, "", {}, names, ignored, kAnySurface).attributes;
 }
 
 Program default_surface() {

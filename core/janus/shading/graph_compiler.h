@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // From a graph of nodes to instructions. Values are numbered as they are asked for, from the
-// closures backwards (nothing else is compiled); operations on constants are carried out at once;
-// equal ones are shared. In the end, instructions that nobody reads are dropped and registers
-// handed out.
+// closures and AOVs backwards (nothing else is compiled); operations on constants are carried out
+// at once; equal ones are shared. In the end, instructions that nobody reads are dropped and
+// registers handed out.
 #pragma once
 
 #include <map>
@@ -48,6 +48,9 @@ class GraphCompiler {
   // A closure of the program.
   void closure(const NodeReader& reader, Value share);
 
+  // What an AOV Output node writes.
+  void aov(const NodeReader& reader, uint32_t number);
+
   Program finish();
 
  private:
@@ -72,6 +75,10 @@ class GraphCompiler {
     bool has_normal;
     Value normal;
   };
+  struct AovStep {
+    uint32_t aov;
+    Value color, value;
+  };
   using NodeAt = std::pair<const Node*, uint16_t>;
 
   Value define(const Definition& definition);
@@ -82,6 +89,9 @@ class GraphCompiler {
 
   void add_constant(const NodeReader& reader, const ClosureStep& step);
   void say_if_full(const NodeReader& reader) const;
+  // Calls read(value) for each that closures and AOVs read.
+  template <class Read>
+  void for_each_result(Read&& read) const;
   void mark_used(std::vector<bool>& used) const;
   void assign_registers(const std::vector<bool>& used);
 
@@ -95,6 +105,7 @@ class GraphCompiler {
   std::vector<Definition> values_;
   std::vector<Step> steps_;
   std::vector<ClosureStep> closures_;
+  std::vector<AovStep> aovs_;
   int lobes_ = 0;  // at most
   std::map<std::tuple<uint32_t, uint32_t, uint32_t, SocketType>, Value> constants_;
   std::map<std::tuple<Kernel, std::vector<uint32_t>, uint32_t, uint16_t>, Value> equal_;

@@ -95,6 +95,13 @@ void GraphCompiler::say_if_full(const NodeReader& reader) const {
   }
 }
 
+// --- AOVs ----------------------------------------------------------------------------------------
+
+void GraphCompiler::aov(const NodeReader& reader, uint32_t number) {
+  require(reader.node(), 0);
+  aovs_.push_back({number, input(reader, "Color", 0), input(reader, "Value", 0)});
+}
+
 // --- The end -------------------------------------------------------------------------------------
 
 Program GraphCompiler::finish() {
@@ -113,16 +120,23 @@ Program GraphCompiler::finish() {
   return std::move(program_);
 }
 
-void GraphCompiler::mark_used(std::vector<bool>& used) const {
+template <class Read>
+void GraphCompiler::for_each_result(Read&& read) const {
   for (const ClosureStep& closure : closures_) {
-    used[closure.share.index] = true;
-    for (const Value operand : closure.operands) {
-      used[operand.index] = true;
-    }
+    read(closure.share);
+    std::ranges::for_each(closure.operands, read);
     if (closure.has_normal) {
-      used[closure.normal.index] = true;
+      read(closure.normal);
     }
   }
+  for (const AovStep& aov : aovs_) {
+    read(aov.color);
+    read(aov.value);
+  }
+}
+
+void GraphCompiler::mark_used(std::vector<bool>& used) const {
+  for_each_result([&](Value value) { used[value.index] = true; });
   // Operands stand before the steps that read them.
   for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
     if (used[step->result.index]) {
@@ -143,7 +157,7 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
       program_.constants.insert(program_.constants.end(), &x.x, &x.x + size);
     }
   }
-  // A register is free again after the last step that reads it; what closures read never is.
+  // A register is free again after the last step that reads it; results never are.
   constexpr size_t kAlways = SIZE_MAX;
   std::vector<size_t> last(values_.size(), 0);
   for (size_t s = 0; s < steps_.size(); ++s) {
@@ -153,15 +167,7 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
       }
     }
   }
-  for (const ClosureStep& closure : closures_) {
-    last[closure.share.index] = kAlways;
-    for (const Value operand : closure.operands) {
-      last[operand.index] = kAlways;
-    }
-    if (closure.has_normal) {
-      last[closure.normal.index] = kAlways;
-    }
-  }
+  for_each_result([&](Value value) { last[value.index] = kAlways; });
   size_t top = program_.constants.size();
   std::vector<uint32_t> free[2];  // numbers, vectors
   std::set<uint32_t> asked;       // operands whose prefetches are there
@@ -221,6 +227,10 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
     const auto normal = static_cast<uint16_t>(place[step.normal.index]);
     program_.closures.push_back({step.decl, static_cast<uint16_t>(place[step.share.index]), first,
                                  step.has_normal ? normal : Closure::kNoNormal, step.variant});
+  }
+  for (const AovStep& step : aovs_) {
+    program_.aovs.push_back({step.aov, static_cast<uint16_t>(place[step.color.index]),
+                             static_cast<uint16_t>(place[step.value.index])});
   }
 }
 

@@ -18,12 +18,7 @@ void Program::execute(RunState state) const {
   }
 }
 
-void Program::run(const ShadingPoint& point, ShadingResult& result) const {
-  place(point.ns, result);
-  if (constant()) {
-    return;
-  }
-  float r[kMaxRegisters];
+void Program::fill(const ShadingPoint& point, float* r) const {
   std::copy(constants.begin(), constants.end(), r);
   if (!filter_widths.empty()) {
     ShadingPoint points[1 + 2 * kMaxFilterWidths];
@@ -37,6 +32,15 @@ void Program::run(const ShadingPoint& point, ShadingResult& result) const {
   } else {
     execute({r, &point, *this});
   }
+}
+
+void Program::run(const ShadingPoint& point, ShadingResult& result) const {
+  place(point.ns, result);
+  if (constant()) {
+    return;
+  }
+  float r[kMaxRegisters];
+  fill(point, r);
   const int placed = result.bsdf.size();
   for (const Closure& closure : closures) {
     if (!(r[closure.share] > 0.0f)) {  // or not a number

@@ -4,6 +4,7 @@
 // registers, and closures that read their parameters from registers.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -60,6 +61,12 @@ enum class Dependence : uint8_t {
   View,  // the direction
 };
 
+// What an AOV Output node writes.
+struct AovWrite {
+  uint32_t aov;           // a number of the scene's
+  uint16_t color, value;  // registers
+};
+
 class Program {
  public:
   // --- What does not vary over the surface.
@@ -84,6 +91,9 @@ class Program {
   bool fibers = false;               // some closure is one of hair
   Dependence dependence = Dependence::None;
   bool transmits = false;  // some closure scatters to the other side, or may
+
+  // --- Of a program that does nothing else.
+  std::vector<AovWrite> aovs;
 
   Program();
   ~Program();
@@ -110,10 +120,24 @@ class Program {
 
   void run(const ShadingPoint& point, ShadingResult& result) const;
 
+  // Calls write(aov, color, value) for each of `aovs`. What is no number is 0.
+  template <class Write>
+  void run_aovs(const ShadingPoint& point, Write&& write) const {
+    float r[kMaxRegisters];
+    fill(point, r);
+    const auto finite = [](float x) { return std::isfinite(x) ? x : 0.0f; };
+    for (const AovWrite& a : aovs) {
+      const float* c = r + a.color;
+      write(a.aov, vec3(finite(c[0]), finite(c[1]), finite(c[2])), finite(r[a.value]));
+    }
+  }
+
   // Do both emit the same everywhere, to all appearance?
   bool emits_like(const Program& other) const;
 
  private:
+  // Computes the registers.
+  void fill(const ShadingPoint& point, float* registers) const;
   void execute(RunState state) const;
 };
 

@@ -152,15 +152,17 @@ class SceneBuilder:
         graph: Mapping[str, Any],
         sample_emission: bool = True,
         material_index: float = 0.0,
+        aovs: Mapping[str, Any] | None = None,
     ) -> list[str]:
         """A surface, as a flattened node tree:
 
         {"nodes": [{"name", "type", "inputs": {identifier: value}, "properties": {identifier:
         value}}], "surface": {"link": [node, output]} or None}. The value of an input is None, a
         number, 3 or 4 numbers, a string, or a link. Types and identifiers are Blender's; see
-        node_types(). sample_emission False: what it emits is found by chance only.
+        node_types(). sample_emission False: what it emits is found by chance only. aovs: a tree
+        that ends in OUTPUT_AOV nodes, with the property aov_name.
 
-        Returns the keys of the attributes that it reads. Of a mesh: "generated", "normal",
+        Returns the keys of the attributes that they read. Of a mesh: "generated", "normal",
         "color:", "uv:NAME", "tangent:NAME", "tangent_sign:NAME" (without a name the active one),
         "attribute:NAME", "pointiness", "random_per_island". Of an instance: "object:NAME",
         "instancer:NAME", "dupli_generated", "dupli_uv".
@@ -269,6 +271,7 @@ class SceneBuilder:
         visible_glossy: bool = True,
         visible_transmission: bool = True,
         light_group: str = "",
+        aovs: Mapping[str, Any] | None = None,
     ) -> None:
         """The background, as for set_material; graph None: black.
 

@@ -54,6 +54,7 @@ class RenderSettings:
         pass_alpha_threshold: float = 0.5,
         mist: Sequence[float] = (5.0, 25.0, 2.0),
         occlusion_distance: float = 0.0,
+        aovs: Sequence[tuple[str, Literal["COLOR", "VALUE"]]] = ...,
     ) -> None: ...
     def to_dict(self) -> dict[str, Any]:
         """The keyword arguments that make these settings."""
@@ -185,6 +186,10 @@ class RenderSettings:
     @property
     def occlusion_distance(self) -> float:
         """How far away, in metres, surroundings occlude in the pass AO; 0: however far."""
+    @property
+    def aovs(self) -> list[tuple[str, str]]:
+        """Name and type, COLOR or VALUE, of what AOV Output nodes write; the picture is 'AOV '
+        and the name."""
     @property
     def mist(self) -> tuple[float, float, float]:
         """Start and depth in metres, and the power of the falloff."""

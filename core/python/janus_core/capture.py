@@ -297,8 +297,9 @@ def _build(
     settings = dict(description["settings"])
     if settings.get("crop") is not None:
         settings["crop"] = tuple(settings["crop"])
-    if "expressions" in settings:
-        settings["expressions"] = [tuple(pair) for pair in settings["expressions"]]
+    for name in ("expressions", "aovs"):
+        if name in settings:
+            settings[name] = [tuple(pair) for pair in settings[name]]
     return builder, RenderSettings(**settings)
 
 

@@ -57,8 +57,8 @@ def write_layers(
 ) -> None:
     """The same for several pictures of one size, by name: a multilayer file, as Blender reads it.
 
-    The channels of a picture are called NAME.R and so on, those of "Combined" R and so on, so that
-    programs that know no layers show that one.
+    The channels of a picture are called NAME.R and so on, or NAME.X where there is but one; those
+    of "Combined" R and so on, so that programs that know no layers show that one.
     """
     require()
     pictures = [

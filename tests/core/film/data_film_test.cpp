@@ -95,6 +95,22 @@ TEST(DataFilm, TakesTheMeanOfWhatIsSeen) {
   EXPECT_EQ(DataFilm::bytes({0, 0, 2, 1}, vector), 2 * sizeof(float) * (1 + 5));
 }
 
+TEST(DataFilm, TakesTheMeanOfAovs) {
+  DataChoice aovs;
+  aovs.aovs = {{"Tint", true}, {"Mask", false}};
+  EXPECT_EQ(aovs.names(), (std::vector<std::string>{"AOV Tint", "AOV Mask"}));
+  EXPECT_TRUE(aovs.any() && aovs.surfaces() && !aovs.features());
+  DataFilm film({0, 0, 2, 1}, aovs);
+  std::optional<DataSample> samples[] = {DataSample(), std::nullopt};
+  film.add(0, samples);  // sees nothing that writes
+  samples[0]->aovs = {vec4(2, -4, 6, 2), vec4(-3, 0, 0, 0)};
+  film.add(0, samples);
+  EXPECT_EQ(film.develop("AOV Tint").pixels, (std::vector<float>{1, -2, 3, 1, 0, 0, 0, 0}));
+  EXPECT_EQ(film.develop("AOV Mask").pixels, (std::vector<float>{-1.5f, 0}));
+  EXPECT_THROW(film.develop("Tint"), std::exception);
+  EXPECT_EQ(DataFilm::bytes({0, 0, 2, 1}, aovs), 2 * sizeof(float) * (1 + 4 + 1));
+}
+
 // Ids by their coverage, two in a picture; what finds no place counts for the last.
 TEST(DataFilm, SortsMattesByCoverage) {
   DataFilm film({0, 0, 1, 1}, choice());

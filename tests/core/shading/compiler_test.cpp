@@ -171,6 +171,9 @@ TEST(Compiler, OmittedInputsTakeTheDeclaredDefaults) {
 TEST(Compiler, KnowsEveryDeclaredNode) {
   for (const NodeDecl& decl : node_types()) {
     EXPECT_EQ(find_node_type(decl.type), &decl);
+    if (decl.outputs.empty()) {  // an end of its own
+      continue;
+    }
     if (!decl.emit) {
       EXPECT_FALSE(warned(compiled(single(std::string(decl.type), {})), "Shader", "rendered black"))
           << decl.type;

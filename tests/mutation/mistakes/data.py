@@ -8,6 +8,7 @@ from mistake import one
 from mistakes.sources import COMMITS, DATA
 
 WALK = "core/janus/integrator/data_passes.cpp"
+AOVS = "core/janus/integrator/aovs.h"
 DATA_FILM = "core/janus/film/data_film.cpp"
 
 DATA_AND_COMMITS = (
@@ -55,6 +56,24 @@ DATA_AND_COMMITS = (
         WALK,
         "share *= found.smooth;",
         "share *= 1.0f;",
+    ),
+    one(
+        "aovs-of-all-that-is-behind",
+        0,
+        "AOVs of what lies behind something thin count in full",
+        DATA,
+        AOVS,
+        "value_ *= chance;",
+        "value_ *= 1.0f;",
+    ),
+    one(
+        "aovs-behind-what-holds",
+        0,
+        "AOVs are written behind surfaces with enough alpha",
+        DATA,
+        WALK,
+        "if (!done && !choice_.aovs.empty()) {",
+        "if (!choice_.aovs.empty()) {",
     ),
     one(
         "meshes-never-change",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Nodes that give closures; what they do is in closures.cpp.
+// Nodes that give closures; what they do is in closures.cpp. And AOV Output, where other trees end.
 #include "janus/shading/closures.h"
 #include "janus/shading/nodes/families.h"
 
@@ -16,6 +16,8 @@ constexpr SocketDecl kMix[] = {{"Fac", SocketType::Float, 0.5f},
                                {"Shader_001", SocketType::Closure}};
 constexpr SocketDecl kAdd[] = {{"Shader", SocketType::Closure},
                                {"Shader_001", SocketType::Closure}};
+
+constexpr SocketDecl kAov[] = {{"Color", SocketType::Color}, {"Value", SocketType::Float}};
 
 // Other distributions are named where a surface is rough.
 constexpr std::string_view kGgx[] = {"MULTI_GGX", "GGX"}, kOneGgx[] = {"GGX"},
@@ -53,6 +55,7 @@ std::span<const NodeDecl> closure_nodes() {
        MixOp::None, kPrincipledHair},
       {"MIX_SHADER", kMix, kShader, nullptr, nullptr, MixOp::Mix},
       {"ADD_SHADER", kAdd, kShader, nullptr, nullptr, MixOp::Add},
+      {"OUTPUT_AOV", kAov, {}},
   };
   return kNodes;
 }
