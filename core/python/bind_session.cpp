@@ -99,7 +99,7 @@ RenderSettings make_settings(
     float film_transparent_roughness, bool roulette, bool check_weights, bool next_event,
     const std::string& connection_mode, const std::string& strategies,
     const Expressions& expressions, const std::vector<std::string>& light_passes,
-    int strategy_images, const std::vector<std::string>& data_passes,
+    int strategy_images, bool shadow_catcher, const std::vector<std::string>& data_passes,
     const std::vector<std::string>& cryptomatte, int cryptomatte_levels, float pass_alpha_threshold,
     const std::array<float, 3>& mist, float occlusion_distance) {
   RenderSettings s;
@@ -139,6 +139,7 @@ RenderSettings make_settings(
   }
   s.light_passes = light_passes;
   s.strategy_images = strategy_images;
+  s.shadow_catcher = shadow_catcher;
   s.motion_blur = motion_blur;
   s.film_exposure = film_exposure;
   s.film_transparent = film_transparent;
@@ -183,6 +184,7 @@ py::dict to_dict(const RenderSettings& s) {
   d["expressions"] = to_list(s.expressions);
   d["light_passes"] = s.light_passes;
   d["strategy_images"] = s.strategy_images;
+  d["shadow_catcher"] = s.shadow_catcher;
   py::list data_passes, cryptomatte;
   for (size_t i = 0; i < kDataPassCount; ++i) {
     if (s.data.passes[i]) {
@@ -220,11 +222,10 @@ void bind_settings(py::module_& m) {
       "limit, 0 for none; threads: 0 for all; max_bounces: as in Cycles, 0 is direct light; "
       "max_diffuse_bounces, max_glossy_bounces, max_transmission_bounces: of them by kind; "
       "transparent_max_bounces: surfaces passed by alpha or transparency; "
-      "clamp_direct, clamp_indirect: the most that a contribution adds to a sample, 0 for no "
-      "limit; "
+      "clamp_direct, clamp_indirect: the most that a contribution adds to a sample, 0 for no limit; "
       "integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
-      "pixels; light_paths per pixel; connections per camera vertex; "
-      "merge_radius: bdpt also merges vertices that are so close, in scene units, 0 for none; "
+      "pixels; light_paths per pixel; connections per camera vertex; merge_radius: bdpt also merges "
+      "vertices that are so close, in scene units, 0 for none; "
       "adaptive_counts: bdpt starts with these two and then takes what is most efficient for the "
       "scene; heuristic: BALANCE or POWER, or NONE: bdpt without weights; strategies: then those "
       "alone, as '0,* 2,3' (s vertices from the light, t from the camera), averaged by length; "
@@ -233,7 +234,8 @@ void bind_settings(py::module_& m) {
       "camera path); expressions: (name, light path expression) of each additional pass; "
       "light_passes: Cycles' passes by Blender's names, DiffDir, DiffInd, DiffCol, the same of "
       "Gloss and Trans, Emit and Env; strategy_images: bdpt makes passes for each strategy of "
-      "paths of up to so many edges; data_passes: Depth, Position, IndexOB, IndexMA (of the first "
+      "paths of up to so many edges; shadow_catcher: a pass of what shadow catchers show, and not "
+      "in the picture; data_passes: Depth, Position, IndexOB, IndexMA (of the first "
       "sample of a pixel), Normal, UV, Vector, Mist, AO, Denoising Albedo, Denoising Normal, "
       "Denoising Depth, Debug Sample Count; cryptomatte: "
       "Object, Material, Asset, each in so many cryptomatte_levels (pictures of two ids); "
@@ -266,7 +268,8 @@ void bind_settings(py::module_& m) {
       "check_weights"_a = d.check_weights, "next_event"_a = d.next_event,
       "connection_mode"_a = to_name(kConnectionModes, d.connection_mode), "strategies"_a = "",
       "expressions"_a = Expressions(), "light_passes"_a = std::vector<std::string>(),
-      "strategy_images"_a = d.strategy_images, "data_passes"_a = std::vector<std::string>(),
+      "strategy_images"_a = d.strategy_images, "shadow_catcher"_a = d.shadow_catcher,
+      "data_passes"_a = std::vector<std::string>(),
       "cryptomatte"_a = std::vector<std::string>(), "cryptomatte_levels"_a = d.data.matte_levels,
       "pass_alpha_threshold"_a = d.data_settings.alpha_threshold,
       "mist"_a = std::array{d.data_settings.mist.start, d.data_settings.mist.depth,

@@ -108,7 +108,7 @@ class BidirectionalIntegrator : public PassIntegrator {
     WeightedState light;
     gather(value, w, technique, sample, counters, [&] {
       light = light_state(nee->light);
-      return SortedPath{{&light, 1}, states(v.trace), unread};
+      return SortedPath{{&light, 1}, states(v.trace), unread, v.caught};
     });
     found = c.weight;
     return value;
@@ -140,7 +140,7 @@ class BidirectionalIntegrator : public PassIntegrator {
     const Rgb value =
         arriving(c->value * w, *c, edges, roulette, sampler, with_value, counters.connection_rays);
     gather(value, w, technique, sample, counters,
-           [&] { return SortedPath{block.states_of(l), states(v.trace), unread}; });
+           [&] { return SortedPath{block.states_of(l), states(v.trace), unread, v.caught}; });
     found = c->weight;
     return value;
   }
@@ -166,7 +166,8 @@ class BidirectionalIntegrator : public PassIntegrator {
     }
     if (settings_.layers.any()) {
       splats_.add(block, s->raster, value, [&](auto&& add) {
-        const SortedPath path{states(v.trace), camera_state(), unread};
+        const bool caught = v.caught || context_.scene().passes_catcher(c.from, c.to);
+        const SortedPath path{states(v.trace), camera_state(), unread, caught};
         settings_.layers.spread(value, w, technique, settings_.walk.expressions, path, add);
       });
     } else {

@@ -20,7 +20,9 @@ using ProgramsByRay = std::array<uint32_t, std::size(kRays)>;
 // One commit: fills a Scene step by step, in the order in which the parts need each other.
 class Commit {
  public:
-  Commit(Scene& scene, const CancelToken& cancel) : scene_(scene), cancel_(cancel) {}
+  // `catchers_alone`: see Scene::catchers_alone.
+  Commit(Scene& scene, bool catchers_alone, const CancelToken& cancel)
+      : scene_(scene), catchers_alone_(catchers_alone), cancel_(cancel) {}
 
   void add_materials(const std::map<std::string, MaterialDesc>& materials, const ImageMap& images) {
     scene_.surfaces.add_program(default_surface(), "default_surface");  // Cycles' name
@@ -66,7 +68,9 @@ class Commit {
       instance.mesh = mesh->second;
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;
-      instance.holdout = desc.holdout;
+      instance.masks = catchers_alone_ && !desc.shadow_catcher;
+      instance.holdout = desc.holdout || instance.masks;
+      instance.catcher = desc.shadow_catcher && !desc.holdout;
       instance.emitter = desc.emitter;
       instance.unlit_by = desc.receiver.unlit_by;
       if (!is_placement(desc.transform)) {
@@ -86,7 +90,7 @@ class Commit {
       const size_t first = scene_.instances.size();
       for (const auto& [programs, rays] : by_look) {
         Instance seen = instance;
-        seen.visibility &= rays;
+        seen.visibility &= seen.masks ? rays & ray_bit(RayType::Camera) : rays;
         add_shadow_types(seen, desc.receiver);
         for (const uint32_t program : programs) {
           seen.materials.push_back(
@@ -112,7 +116,7 @@ class Commit {
       const bool emits =
           std::any_of(instance.materials.begin(), instance.materials.end(),
                       [&](uint32_t p) { return scene_.surfaces.program(p).emits(); });
-      if (!emits) {
+      if (!emits || instance.masks) {
         continue;
       }
       // Rays find what nobody looks for, or what was dark wherever one looked.
@@ -136,6 +140,9 @@ class Commit {
     const LampSurroundings around{view_of(camera), surroundings(),
                                   [&](const LightDesc& lamp) { return surfaces_near(lamp); }};
     for (const auto& [key, desc] : lights) {
+      if (catchers_alone_ && !desc.lights_catchers) {
+        continue;
+      }
       LightDesc lamp = desc;
       if (lamp.name.empty()) {
         lamp.name = key;
@@ -209,6 +216,7 @@ class Commit {
       instance.opaque = instance.opaque && !scene_.surfaces.program(program).has_transparency();
     }
     scene_.has_transparency = scene_.has_transparency || !instance.opaque;
+    scene_.has_clear_catchers |= instance.catcher && !instance.opaque;
     scene_.instances.push_back(std::move(instance));
   }
 
@@ -286,6 +294,7 @@ class Commit {
   }
 
   Scene& scene_;
+  bool catchers_alone_;
   const CancelToken& cancel_;
   std::map<std::string, uint32_t> mesh_index_;
   std::map<std::string, ProgramsByRay> program_index_;
@@ -336,27 +345,39 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
     throw SceneError("camera", "", "the scene has no camera");
   }
   check_camera(*camera_);
-  auto scene = std::make_shared<Scene>();
-  scene->camera = *camera_;
-  Commit commit(*scene, cancel);
-  commit.add_materials(materials_, images_);
-  commit.add_meshes(meshes_);
-  commit.add_instances(instances_);
-  scene->place_objects();
   std::shared_ptr<const Scene> last;
   {
     const std::lock_guard lock(last_->mutex);
     last = last_->scene.lock();
   }
-  commit.build_accel(last.get());
+  const std::shared_ptr<Scene> scene = make(last.get(), false, cancel);
+  const auto seen = [](const Instance& i) {
+    return i.catcher && contains(i.visibility, RayType::Camera);
+  };
+  if (std::ranges::any_of(scene->instances, seen)) {
+    scene->catchers_alone = make(scene.get(), true, cancel);
+  }
+  const std::lock_guard lock(last_->mutex);
+  last_->scene = scene;
+  return scene;
+}
+
+std::shared_ptr<Scene> SceneBuilder::make(const Scene* last, bool catchers_alone,
+                                          const CancelToken& cancel) const {
+  auto scene = std::make_shared<Scene>();
+  scene->camera = *camera_;
+  Commit commit(*scene, catchers_alone, cancel);
+  commit.add_materials(materials_, images_);
+  commit.add_meshes(meshes_);
+  commit.add_instances(instances_);
+  scene->place_objects();
+  commit.build_accel(last);
   commit.add_mesh_lights();
   commit.add_lamps(lights_, images_, *camera_);
   if (world_) {
     commit.add_world(*world_, images_, *camera_);
   }
   commit.finish();
-  const std::lock_guard lock(last_->mutex);
-  last_->scene = scene;
   return scene;
 }
 

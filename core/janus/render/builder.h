@@ -77,6 +77,10 @@ class SceneBuilder {
   std::shared_ptr<const Scene> commit(const CancelToken& cancel) const;
 
  private:
+  // A scene that shares what it can with `last`, if there is one; see Scene::catchers_alone.
+  std::shared_ptr<Scene> make(const Scene* last, bool catchers_alone,
+                              const CancelToken& cancel) const;
+
   // Ordered maps: the scene, and so the image, does not depend on the order of the calls.
   // Copies of a builder share the meshes, its heaviest part.
   std::map<std::string, std::shared_ptr<MeshItem>> meshes_;

@@ -54,6 +54,8 @@ struct RenderSettings {
   std::vector<ExpressionPass> expressions;  // at most PathAutomaton::kMostExpressions
   std::vector<std::string> light_passes;    // Cycles' passes of light, by names in light_passes()
   int strategy_images = 0;                  // bdpt: Layers::longest
+  // The pass "Shadow Catcher". The picture is then without what it shows.
+  bool shadow_catcher = false;
   DataChoice data;                          // passes of what the camera sees
   DataSettings data_settings;
   bool motion_blur = true;     // of what moves in the scene
