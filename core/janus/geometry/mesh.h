@@ -86,8 +86,6 @@ struct Instance {
   uint32_t first_copy = 0, copies = 1;
   bool holdout = false;                      // InstanceDesc::holdout
   bool catcher = false;                      // a shadow catcher that does not hold out
-  // In Scene::catchers_alone: no part of it, but in the camera's way. It emits nothing.
-  bool masks = false;
   EmitterLinks emitter{};                    // of what it emits
   LinkMask unlit_by = 0;                     // ReceiverLinks::unlit_by
   vec4 color = vec4(1.0f);                   // what Object Info says: the object's colour,

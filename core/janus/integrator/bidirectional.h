@@ -159,14 +159,18 @@ class BidirectionalIntegrator : public PassIntegrator {
     const Connection& c = s->connection;
     const Technique technique{v.edges + 1, 1};
     const float w = weight(c.weight, technique);
-    const Rgb value = arriving(c.value * w / light_paths, c, v.edges + 1, roulettes.at(s->raster),
-                               sampler, counters.splats, counters.splat_rays);
+    Rgb value = arriving(c.value * w / light_paths, c, v.edges + 1, roulettes.at(s->raster),
+                         sampler, counters.splats, counters.splat_rays);
     if (!usable(value, counters)) {
+      return;
+    }
+    const bool caught = settings_.walk.catchers && catch_segment(context_.scene(), c.from, c.to,
+                                                                 v.caught, settings_.walk, value);
+    if (is_black(value)) {
       return;
     }
     if (settings_.layers.any()) {
       splats_.add(block, s->raster, value, [&](auto&& add) {
-        const bool caught = v.caught || context_.scene().passes_catcher(c.from, c.to);
         const SortedPath path{states(v.trace), camera_state(), unread, caught};
         settings_.layers.spread(value, w, technique, settings_.walk.expressions, path, add);
       });

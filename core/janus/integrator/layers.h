@@ -34,12 +34,12 @@ struct Layers {
   size_t first_color() const { return expressions; }
   bool is_color(size_t layer) const { return layer >= first_color() && layer < first_strategy(); }
 
-  // Of shadow catchers; what they hide of the background; light that belongs to none of them; and
-  // how much of a pixel does.
+  // Of shadow catchers; what they hide of the background; light that belongs to none of them; how
+  // much of a pixel does, and how much of it they cover.
   size_t caught_light() const { return longest > 0 ? longer() + 1 : first_strategy(); }
   size_t behind() const { return caught_light() + 1; }
   size_t matte_light() const { return caught_light() + 2; }
-  size_t matte_alpha() const { return caught_light() + 3; }
+  size_t shares() const { return caught_light() + 3; }
 
   size_t count() const { return caught_light() + (caught ? 1 : 0) + (matte ? 3 : 0); }
   bool any() const { return count() > 0; }
@@ -86,7 +86,7 @@ struct Layers {
   }
   void add_coverage(const ViewCoverage& coverage, std::span<Rgb> layers) const {
     layers[behind()] += coverage.behind;
-    layers[matte_alpha()] += Rgb(coverage.matte);
+    layers[shares()] += Rgb(coverage.matte, coverage.caught, 0.0f);
   }
 
  private:

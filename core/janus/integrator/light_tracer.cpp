@@ -77,11 +77,12 @@ class LightTracer final : public PassIntegrator {
     if (!lens) {
       return;
     }
-    const Rgb value =
+    Rgb value =
         settings_.clamp(v.beta * lens->importance / static_cast<float>(count), v.edges + 1);
     if (usable(value, counters)) {
       const bool caught =
-          v.caught || context_.scene().passes_catcher(ray.origin, lens->position);
+          settings_.walk.catchers && catch_segment(context_.scene(), ray.origin, lens->position,
+                                                   v.caught, settings_.walk, value);
       add_splat(lens->raster, value, {states(v.trace), camera_state(), {}, caught});
     }
   }
@@ -105,10 +106,10 @@ class LightTracer final : public PassIntegrator {
     }
     ++counters.splat_rays;
     const Connection& c = s->connection;
-    const Rgb value =
-        c.value * context_.scene().transmittance(c.from, c.to, c.type, crossings, c.camera);
+    Rgb value = c.value * context_.scene().transmittance(c.from, c.to, c.type, crossings, c.camera);
     if (!is_black(value)) {
-      const bool caught = v.caught || context_.scene().passes_catcher(c.from, c.to);
+      const bool caught = settings_.walk.catchers && catch_segment(context_.scene(), c.from, c.to,
+                                                                   v.caught, settings_.walk, value);
       add_splat(s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1),
                 {states(v.trace), camera_state(), unread, caught});
     }

@@ -239,7 +239,10 @@ class PathTracer final : public PassIntegrator {
       }
       ShadingResult shading = scene.shade(*hit, wo);
       if (settings_.walk.catchers && walk.edges == 1 && !walk.caught) {
-        walk.caught = catch_view(scene, *hit, walk.ray, walk.beta, settings_.walk, coverage);
+        walk.caught = catch_view(scene, *hit, walk.ray, settings_.walk, walk.beta, coverage);
+        if (is_black(walk.beta)) {
+          return sum;
+        }
       }
       if (settings_.walk.holdouts && walk.clear) {
         hold_out(*hit, walk, shading, coverage);

@@ -15,6 +15,7 @@ namespace janus {
 struct ViewCoverage {
   float alpha = 1.0f;      // of everything
   float matte = 1.0f;      // of what belongs to no shadow catcher
+  float caught = 0.0f;     // what comes to shadow catchers
   Rgb behind = Rgb(0.0f);  // the background where there are shadow catchers, if the film shows it
 };
 
@@ -23,8 +24,14 @@ inline bool catches(const Scene& scene, const SurfaceInteraction& hit) {
 }
 
 // The camera's `ray`, of which `beta` has come through, meets `hit`: true if that is a shadow catcher,
-// to which it belongs from here on.
-bool catch_view(const Scene& scene, const SurfaceInteraction& hit, const Ray& ray, Rgb beta,
-                const PathRules& rules, ViewCoverage& coverage);
+// to which it belongs from here on. Where there are catchers alone, the rest of the whole scene
+// still stands before the first one, and `beta` loses what that hides.
+bool catch_view(const Scene& scene, const SurfaceInteraction& hit, const Ray& ray,
+                const PathRules& rules, Rgb& beta, ViewCoverage& coverage);
+
+// The same of a path that is seen from `to`, at the camera, over a clear segment from `from`, which
+// is on a shadow catcher if `caught`, and has `value`.
+bool catch_segment(const Scene& scene, vec3 from, vec3 to, bool caught, const PathRules& rules,
+                   Rgb& value);
 
 }  // namespace janus

@@ -18,9 +18,8 @@ struct Place {
   float sum = 0.0f;
 };
 
-// What masks is seen by nobody as a vertex of a path.
 bool may_end(const Instance& instance) {
-  return (instance.visibility & (kLabels | ray_bit(RayType::Camera))) != 0 && !instance.masks;
+  return (instance.visibility & (kLabels | ray_bit(RayType::Camera))) != 0;
 }
 
 void shade_copy(const Scene& scene, vec3 direction, uint32_t copy, PathVertex& v) {

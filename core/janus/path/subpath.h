@@ -323,7 +323,7 @@ ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2
                       [&](size_t lamp, const LightHit& hit) { found(lamp, hit, v.beta); });
       }
       if (settings.catchers && surface && v.edges == 1 && !v.caught) {
-        v.caught = catch_view(scene, v.hit, ray, v.beta, settings, coverage);
+        v.caught = catch_view(scene, v.hit, ray, settings, v.beta, coverage);
       }
       if (v.clear && (surface ? settings.holdouts : settings.film_transparent)) {
         const float missing =
@@ -352,7 +352,7 @@ ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2
              counters.camera_rays, v, on_segment)) {
       return coverage;
     }
-    if (ended) {
+    if (ended || (settings.catchers && is_black(v.beta))) {
       return coverage;
     }
     v.back = -ray.direction;

@@ -20,9 +20,8 @@ using ProgramsByRay = std::array<uint32_t, std::size(kRays)>;
 // One commit: fills a Scene step by step, in the order in which the parts need each other.
 class Commit {
  public:
-  // `catchers_alone`: see Scene::catchers_alone.
-  Commit(Scene& scene, bool catchers_alone, const CancelToken& cancel)
-      : scene_(scene), catchers_alone_(catchers_alone), cancel_(cancel) {}
+  // `scene.whole`: of a scene of shadow catchers alone.
+  Commit(Scene& scene, const CancelToken& cancel) : scene_(scene), cancel_(cancel) {}
 
   void add_materials(const std::map<std::string, MaterialDesc>& materials, const ImageMap& images) {
     scene_.surfaces.add_program(default_surface(), "default_surface");  // Cycles' name
@@ -60,6 +59,9 @@ class Commit {
       if (mesh == mesh_index_.end()) {
         throw SceneError(key, "mesh", "there is no mesh '" + desc.mesh + "'");
       }
+      if (scene_.whole && !desc.shadow_catcher) {
+        continue;
+      }
       const std::string& name = desc.name.empty() ? key : desc.name;
       Instance instance;
       instance.name = name;
@@ -68,8 +70,7 @@ class Commit {
       instance.mesh = mesh->second;
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;
-      instance.masks = catchers_alone_ && !desc.shadow_catcher;
-      instance.holdout = desc.holdout || instance.masks;
+      instance.holdout = desc.holdout;
       instance.catcher = desc.shadow_catcher && !desc.holdout;
       instance.emitter = desc.emitter;
       instance.unlit_by = desc.receiver.unlit_by;
@@ -90,7 +91,7 @@ class Commit {
       const size_t first = scene_.instances.size();
       for (const auto& [programs, rays] : by_look) {
         Instance seen = instance;
-        seen.visibility &= seen.masks ? rays & ray_bit(RayType::Camera) : rays;
+        seen.visibility &= rays;
         add_shadow_types(seen, desc.receiver);
         for (const uint32_t program : programs) {
           seen.materials.push_back(
@@ -108,6 +109,7 @@ class Commit {
   void build_accel(const Scene* last) {
     scene_.accel = std::make_shared<const Accel>(scene_.meshes, scene_.instances, cancel_,
                                                  last ? last->accel.get() : nullptr);
+    scene_.surroundings = scene_.whole ? scene_.whole->surroundings : surroundings();
   }
 
   void add_mesh_lights() {
@@ -116,7 +118,7 @@ class Commit {
       const bool emits =
           std::any_of(instance.materials.begin(), instance.materials.end(),
                       [&](uint32_t p) { return scene_.surfaces.program(p).emits(); });
-      if (!emits || instance.masks) {
+      if (!emits) {
         continue;
       }
       // Rays find what nobody looks for, or what was dark wherever one looked.
@@ -137,10 +139,10 @@ class Commit {
 
   void add_lamps(const std::map<std::string, LightDesc>& lights, const ImageMap& images,
                  const CameraDesc& camera) {
-    const LampSurroundings around{view_of(camera), surroundings(),
+    const LampSurroundings around{view_of(camera), SceneBox(scene_.surroundings),
                                   [&](const LightDesc& lamp) { return surfaces_near(lamp); }};
     for (const auto& [key, desc] : lights) {
-      if (catchers_alone_ && !desc.lights_catchers) {
+      if (scene_.whole && !desc.lights_catchers) {
         continue;
       }
       LightDesc lamp = desc;
@@ -156,7 +158,8 @@ class Commit {
 
   void add_world(const WorldDesc& world, const ImageMap& images, const CameraDesc& camera) {
     for (auto& light :
-         make_world(world, images, view_of(camera), surroundings(), scene_.diagnostics, cancel_)) {
+         make_world(world, images, view_of(camera), SceneBox(scene_.surroundings), scene_.diagnostics,
+                    cancel_)) {
       add_light(std::move(light));
     }
   }
@@ -249,7 +252,7 @@ class Commit {
   }
 
   // Around all surfaces, at all times.
-  SceneBox surroundings() const {
+  Bounds surroundings() const {
     Bounds bounds = scene_.accel->bounds();
     for (const Instance& instance : scene_.instances) {
       const Mesh& mesh = *scene_.meshes[instance.mesh];
@@ -257,7 +260,7 @@ class Commit {
         bounds.extend(swept(instance, mesh));
       }
     }
-    return SceneBox(bounds);
+    return bounds;
   }
 
   // Where an instance is at one time or another.
@@ -294,7 +297,6 @@ class Commit {
   }
 
   Scene& scene_;
-  bool catchers_alone_;
   const CancelToken& cancel_;
   std::map<std::string, uint32_t> mesh_index_;
   std::map<std::string, ProgramsByRay> program_index_;
@@ -350,23 +352,24 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
     const std::lock_guard lock(last_->mutex);
     last = last_->scene.lock();
   }
-  const std::shared_ptr<Scene> scene = make(last.get(), false, cancel);
+  const std::shared_ptr<Scene> scene = make(last.get(), nullptr, cancel);
   const auto seen = [](const Instance& i) {
     return i.catcher && contains(i.visibility, RayType::Camera);
   };
   if (std::ranges::any_of(scene->instances, seen)) {
-    scene->catchers_alone = make(scene.get(), true, cancel);
+    scene->catchers_alone = make(scene.get(), scene.get(), cancel);
   }
   const std::lock_guard lock(last_->mutex);
   last_->scene = scene;
   return scene;
 }
 
-std::shared_ptr<Scene> SceneBuilder::make(const Scene* last, bool catchers_alone,
+std::shared_ptr<Scene> SceneBuilder::make(const Scene* last, const Scene* whole,
                                           const CancelToken& cancel) const {
   auto scene = std::make_shared<Scene>();
   scene->camera = *camera_;
-  Commit commit(*scene, catchers_alone, cancel);
+  scene->whole = whole;
+  Commit commit(*scene, cancel);
   commit.add_materials(materials_, images_);
   commit.add_meshes(meshes_);
   commit.add_instances(instances_);

@@ -68,7 +68,7 @@ Rgb Scene::transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings
   }
 }
 
-bool Scene::meets_catcher(vec3 a, vec3 b) const {
+std::optional<vec3> Scene::find_passed_catcher(vec3 a, vec3 b) const {
   const float length = glm::length(b - a);
   const vec3 d = (b - a) / length;
   const float rest = (1.0f - Accel::kShadowReach) * length;
@@ -76,12 +76,12 @@ bool Scene::meets_catcher(vec3 a, vec3 b) const {
   SurfaceInteraction hit;
   while (ray.t_max > 0.0f && accel->intersect_transparent(ray, RayType::Camera, hit)) {
     if (instances[hit.instance].catcher) {
-      return true;
+      return offset_origin(hit.p, hit.ng, hit.offset, -d);
     }
     ray.origin = offset_origin(hit.p, hit.ng, hit.offset, d);
     ray.t_max = dot(b - ray.origin, d) - rest;
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace janus

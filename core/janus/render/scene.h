@@ -66,8 +66,11 @@ class Scene {
     }
     return transmittance_through(a, b, type, max_crossings, camera);
   }
-  // Is there a shadow catcher on the open segment, which is clear to the camera, from `a` to `b`?
-  bool passes_catcher(vec3 a, vec3 b) const { return has_clear_catchers && meets_catcher(a, b); }
+  // The first shadow catcher that is passed on the open segment, which is clear to the camera, from
+  // there at `a` to `b`: a point before its surface.
+  std::optional<vec3> passed_catcher(vec3 a, vec3 b) const {
+    return has_clear_catchers ? find_passed_catcher(a, b) : std::nullopt;
+  }
   ShadingResult shade(const SurfaceInteraction& hit, vec3 view) const {
     ShadingResult result;
     shade(hit, view, result);
@@ -106,16 +109,19 @@ class Scene {
   bool has_ray_types = false;     // that, or some object or light is not visible to all rays
   bool has_holdouts = false;      // of some object or surface
   bool has_clear_catchers = false;  // shadow catchers that are transparent in places
+  Bounds surroundings;            // of all surfaces, at all times
   CameraDesc camera;
   Diagnostics diagnostics;
   // Of a scene at a time of the shutter: the one that it was made of, with which it shares much.
   std::shared_ptr<const Scene> timeless;
   // Where the camera may see shadow catchers: the scene as the footage shows it, with them and
-  // their lights alone. All else is in the camera's way, and meets no other rays. Null: no catchers.
+  // their lights alone. Null: there are none.
   std::shared_ptr<const Scene> catchers_alone;
+  // Of such a scene: that of which it is a part, at the same time. It outlives the use of this one.
+  const Scene* whole = nullptr;
 
  private:
-  bool meets_catcher(vec3 a, vec3 b) const;
+  std::optional<vec3> find_passed_catcher(vec3 a, vec3 b) const;
   Rgb transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings, End camera) const;
 };
 

@@ -196,7 +196,7 @@ void RenderSession::run() {
   std::optional<Exposure> footage;
   std::unique_ptr<Integrator> footage_integrator;
   if (catcher_film_) {
-    footage.emplace(scene_->catchers_alone, exposure);
+    footage.emplace(exposure);
     footage_integrator =
         make_integrator(RenderContext{*footage, *catcher_film_, pool, cancel_},
                         integrator_settings(*scene_->catchers_alone, layers_of_catchers()));
@@ -347,6 +347,12 @@ Image RenderSession::snapshot(const std::string& name) const {
   // Colours of surfaces are no light.
   const float exposure = passes_.layers().is_color(pass->layer) ? 1.0f : settings_.film_exposure;
   Image image = film_->develop_layer(pass->layer, exposure);
+  if (catcher_film_ && name == "Env") {  // as in Cycles: footage is laid over it, too
+    const Image behind = film_->develop_layer(passes_.layers().behind(), exposure);
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+      image.pixels[i] += behind.pixels[i];
+    }
+  }
   if (pass->color) {
     const Image color = film_->develop_layer(*pass->color);
     for (size_t i = 0; i < image.pixels.size(); ++i) {
