@@ -98,7 +98,11 @@ def catches_shadows(layer) -> bool:
 def denoises(scene, layer) -> bool:
     """Is the picture to be denoised? Not that of strategies: their sum must be the picture."""
     wanted = cycles_settings.value(scene, "use_denoising")
-    return wanted and cycles_settings.layer_value(layer, "use_denoising") and not strategy_length(scene)
+    return (
+        wanted
+        and cycles_settings.layer_value(layer, "use_denoising")
+        and not strategy_length(scene)
+    )
 
 
 def arguments(scene, layer) -> dict:

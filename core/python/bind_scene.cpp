@@ -331,7 +331,8 @@ void bind_scene(py::module_& m) {
            "blocker_set"_a = -1, "lights_catchers"_a = true,
            "A light object, in Blender's words and units: type POINT, SPOT, SUN or AREA; energy in "
            "watts (sun: W/m^2); angles in radians; shape SQUARE, RECTANGLE, DISK or ELLIPSE; sets "
-           "as in set_instance(); lights_catchers: it is part of the footage (shadow_catcher there).")
+           "as in set_instance(); lights_catchers: it is part of the footage (shadow_catcher "
+           "there).")
       .def(
           "set_world",
           [](SceneBuilder& self, std::string name, const std::optional<py::dict>& graph,

@@ -222,9 +222,11 @@ void bind_settings(py::module_& m) {
       "limit, 0 for none; threads: 0 for all; max_bounces: as in Cycles, 0 is direct light; "
       "max_diffuse_bounces, max_glossy_bounces, max_transmission_bounces: of them by kind; "
       "transparent_max_bounces: surfaces passed by alpha or transparency; "
-      "clamp_direct, clamp_indirect: the most that a contribution adds to a sample, 0 for no limit; "
+      "clamp_direct, clamp_indirect: the most that a contribution adds to a sample, 0 for no "
+      "limit; "
       "integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
-      "pixels; light_paths per pixel; connections per camera vertex; merge_radius: bdpt also merges "
+      "pixels; light_paths per pixel; connections per camera vertex; merge_radius: bdpt also "
+      "merges "
       "vertices that are so close, in scene units, 0 for none; "
       "adaptive_counts: bdpt starts with these two and then takes what is most efficient for the "
       "scene; heuristic: BALANCE or POWER, or NONE: bdpt without weights; strategies: then those "
@@ -269,8 +271,8 @@ void bind_settings(py::module_& m) {
       "connection_mode"_a = to_name(kConnectionModes, d.connection_mode), "strategies"_a = "",
       "expressions"_a = Expressions(), "light_passes"_a = std::vector<std::string>(),
       "strategy_images"_a = d.strategy_images, "shadow_catcher"_a = d.shadow_catcher,
-      "data_passes"_a = std::vector<std::string>(),
-      "cryptomatte"_a = std::vector<std::string>(), "cryptomatte_levels"_a = d.data.matte_levels,
+      "data_passes"_a = std::vector<std::string>(), "cryptomatte"_a = std::vector<std::string>(),
+      "cryptomatte_levels"_a = d.data.matte_levels,
       "pass_alpha_threshold"_a = d.data_settings.alpha_threshold,
       "mist"_a = std::array{d.data_settings.mist.start, d.data_settings.mist.depth,
                             d.data_settings.mist.falloff},

@@ -60,7 +60,9 @@ def stage(scene, case: dict) -> None:
         ),
     }
     white = floors[case.get("floor")]()
-    kit.quad(scene, "Floor", [(-1.6, -1.6, 0), (1.6, -1.6, 0), (1.6, 1.6, 0), (-1.6, 1.6, 0)], white)
+    kit.quad(
+        scene, "Floor", [(-1.6, -1.6, 0), (1.6, -1.6, 0), (1.6, 1.6, 0), (-1.6, 1.6, 0)], white
+    )
     red = kit.diffuse("Red", (0.7, 0.25, 0.2))
     kit.box(scene, "Block", (0.6, 0.6, 0.7), red).location = (-0.5, 0.4, 0.0)
     metal = kit.shader(
@@ -108,7 +110,9 @@ def lamps(scene, case: dict) -> None:
         lamp.rotation_euler = (0.7, 0.4, 0.2)
         scene.collection.objects.link(lamp)
     if case.get("second"):
-        second = kit.area_light(scene, "Second", (-1.8, 0.9, 2.0), (0.0, 0.0, 0.2), (0.6, 0.6), 60.0)
+        second = kit.area_light(
+            scene, "Second", (-1.8, 0.9, 2.0), (0.0, 0.0, 0.2), (0.6, 0.6), 60.0
+        )
         second.data.color = (0.2, 0.4, 1.0)
 
 

@@ -77,8 +77,7 @@ class LightTracer final : public PassIntegrator {
     if (!lens) {
       return;
     }
-    Rgb value =
-        settings_.clamp(v.beta * lens->importance / static_cast<float>(count), v.edges + 1);
+    Rgb value = settings_.clamp(v.beta * lens->importance / static_cast<float>(count), v.edges + 1);
     if (usable(value, counters)) {
       const bool caught =
           settings_.walk.catchers && catch_segment(context_.scene(), ray.origin, lens->position,

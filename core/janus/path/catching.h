@@ -23,9 +23,9 @@ inline bool catches(const Scene& scene, const SurfaceInteraction& hit) {
   return scene.instances[hit.instance].catcher;
 }
 
-// The camera's `ray`, of which `beta` has come through, meets `hit`: true if that is a shadow catcher,
-// to which it belongs from here on. Where there are catchers alone, the rest of the whole scene
-// still stands before the first one, and `beta` loses what that hides.
+// The camera's `ray`, of which `beta` has come through, meets `hit`: true if that is a shadow
+// catcher, to which it belongs from here on. Where there are catchers alone, the rest of the whole
+// scene still stands before the first one, and `beta` loses what that hides.
 bool catch_view(const Scene& scene, const SurfaceInteraction& hit, const Ray& ray,
                 const PathRules& rules, Rgb& beta, ViewCoverage& coverage);
 

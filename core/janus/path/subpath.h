@@ -256,9 +256,9 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
 // of the camera's ray did not end in a hole, or on a transparent film's background. The sampler's
 // block 0 belongs to the caller (film) and the lens.
 template <class OnLight, class OnVertex>
-ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster, const Mis& mis,
-                           const WalkSettings& settings, Sampler& sampler, Counters& counters,
-                           OnLight&& on_light, OnVertex&& on_vertex) {
+ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster,
+                                  const Mis& mis, const WalkSettings& settings, Sampler& sampler,
+                                  Counters& counters, OnLight&& on_light, OnVertex&& on_vertex) {
   ++counters.camera_paths;
   const CameraRay start = camera.sample_ray(raster, sampler.next_2d());
   ViewCoverage coverage;

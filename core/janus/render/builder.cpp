@@ -157,9 +157,8 @@ class Commit {
   }
 
   void add_world(const WorldDesc& world, const ImageMap& images, const CameraDesc& camera) {
-    for (auto& light :
-         make_world(world, images, view_of(camera), SceneBox(scene_.surroundings), scene_.diagnostics,
-                    cancel_)) {
+    for (auto& light : make_world(world, images, view_of(camera), SceneBox(scene_.surroundings),
+                                  scene_.diagnostics, cancel_)) {
       add_light(std::move(light));
     }
   }

@@ -102,14 +102,14 @@ class Scene {
   std::vector<size_t> lamps;  // those that rays meet without a surface; the world last
   LampIndex lamp_index;
   LightSampler light_sampler;
-  bool has_transparency = false;  // of some surface
-  RayMask shadow_types = 0;       // shadow rays of the lights
-  bool has_own_shadows = false;   // some are not RayType::Shadow
-  bool has_links = false;         // some light does not shine on everything
-  bool has_ray_types = false;     // that, or some object or light is not visible to all rays
-  bool has_holdouts = false;      // of some object or surface
+  bool has_transparency = false;    // of some surface
+  RayMask shadow_types = 0;         // shadow rays of the lights
+  bool has_own_shadows = false;     // some are not RayType::Shadow
+  bool has_links = false;           // some light does not shine on everything
+  bool has_ray_types = false;       // that, or some object or light is not visible to all rays
+  bool has_holdouts = false;        // of some object or surface
   bool has_clear_catchers = false;  // shadow catchers that are transparent in places
-  Bounds surroundings;            // of all surfaces, at all times
+  Bounds surroundings;              // of all surfaces, at all times
   CameraDesc camera;
   Diagnostics diagnostics;
   // Of a scene at a time of the shutter: the one that it was made of, with which it shares much.

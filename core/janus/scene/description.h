@@ -114,7 +114,8 @@ struct LightDesc {
   std::optional<NodeGraph> graph;  // the light's own node tree
   std::string light_group{};       // empty: none
   EmitterLinks links{};
-  bool lights_catchers = true;  // false: it is no part of the footage (InstanceDesc::shadow_catcher)
+  bool lights_catchers =
+      true;  // false: it is no part of the footage (InstanceDesc::shadow_catcher)
 };
 
 struct WorldDesc {

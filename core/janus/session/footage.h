@@ -28,8 +28,8 @@ inline Layers layers_of_catchers() {
 Image shadows_on_footage(const FootageFilms& films);
 
 // RGBA. `background`: the film shows it, and the shadows fall on that; else they make the picture
-// opaque and black. That knows no colour: a factor of the footage is more (`apart`), and the picture
-// is without shadows then.
+// opaque and black. That knows no colour: a factor of the footage is more (`apart`), and the
+// picture is without shadows then.
 Image lay_over_footage(const FootageFilms& films, bool background, bool apart, float exposure);
 
 }  // namespace janus

@@ -46,9 +46,9 @@ void RenderSession::check_memory() const {
   const size_t most = physical_memory();
   const size_t needed =
       Film::bytes(settings_.rect(), passes_.layers().count(), settings_.adaptive()) +
-      (scene_->catchers_alone ? Film::bytes(settings_.rect(), layers_of_catchers().count(),
-                                            settings_.adaptive())
-                              : 0) +
+      (scene_->catchers_alone
+           ? Film::bytes(settings_.rect(), layers_of_catchers().count(), settings_.adaptive())
+           : 0) +
       DataFilm::bytes(settings_.rect(), settings_.data);
   if (most > 0 && needed > most / 10 * 9) {
     const auto gigabytes = [](size_t bytes) { return std::to_string((bytes >> 30) + 1) + " GB"; };
@@ -153,9 +153,8 @@ IntegratorSettings RenderSession::integrator_settings(const Scene& scene,
   // Cycles counts bounces between the first surface and the light: 0 leaves camera, surface, light.
   result.walk.max_edges = settings_.max_bounces + 2;
   result.walk.max_crossings = settings_.transparent_max_bounces;
-  result.walk.caps =
-      BounceCaps(settings_.max_diffuse_bounces, settings_.max_glossy_bounces,
-                 settings_.max_transmission_bounces);
+  result.walk.caps = BounceCaps(settings_.max_diffuse_bounces, settings_.max_glossy_bounces,
+                                settings_.max_transmission_bounces);
   result.clamp = Clamp(settings_.clamp_direct, settings_.clamp_indirect);
   result.walk.ray_types = scene.has_ray_types;
   result.walk.holdouts = scene.has_holdouts;
@@ -189,10 +188,10 @@ void RenderSession::run() {
   const RenderContext context{exposure, *film_, pool, cancel_};
   const IntegratorSettings how = integrator_settings(*scene_, passes_.layers());
   const auto integrator = make_integrator(context, how);
-  const auto data = data_film_
-                        ? make_data_passes(context, how, settings_.data_settings, *data_film_)
-                        : nullptr;
-  // Shadow catchers alone, with the same samples: where nothing changes their light, it is the same.
+  const auto data =
+      data_film_ ? make_data_passes(context, how, settings_.data_settings, *data_film_) : nullptr;
+  // Shadow catchers alone, with the same samples: where nothing changes their light, it is the
+  // same.
   std::optional<Exposure> footage;
   std::unique_ptr<Integrator> footage_integrator;
   if (catcher_film_) {

@@ -56,7 +56,7 @@ struct RenderSettings {
   int strategy_images = 0;                  // bdpt: Layers::longest
   // The pass "Shadow Catcher". The picture is then without what it shows.
   bool shadow_catcher = false;
-  DataChoice data;                          // passes of what the camera sees
+  DataChoice data;  // passes of what the camera sees
   DataSettings data_settings;
   bool motion_blur = true;     // of what moves in the scene
   float film_exposure = 1.0f;  // a factor of the finished picture's colour
