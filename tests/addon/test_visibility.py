@@ -7,8 +7,7 @@ from conftest import add_square, messages, new_material
 
 
 def test_unsupported_things_are_named(scene, export):
-    square = add_square("Ghost")
-    square.is_shadow_catcher = True
+    square = add_square("Square")
     bpy.ops.object.volume_add()
     cloud = bpy.data.objects.new("Cloud", bpy.data.pointclouds.new("Cloud"))
     scene.collection.objects.link(cloud)
@@ -23,7 +22,6 @@ def test_unsupported_things_are_named(scene, export):
     export()
     text = "\n".join(messages())
     for expected in (
-        "Object 'Ghost': shadow catchers",
         "Object 'Volume': volumes",
         "Object 'Cloud': point clouds",
         "Material 'Foggy': volumes",
@@ -63,7 +61,7 @@ def test_findings_are_counted_not_repeated(scene, export):
     for x in range(5):
         square = add_square()
         square.name = f"Square {x}"
-    bpy.data.objects["Square 1"].is_shadow_catcher = True
+        square.cycles.shadow_terminator_offset = 0.2 * (x == 1)
     export()
     assert len(messages()) == 1
 
