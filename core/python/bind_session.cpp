@@ -30,7 +30,6 @@ constexpr EnumName<MatteKind> kMatteKindNames[] = {
     {"Object", MatteKind::Object}, {"Material", MatteKind::Material}, {"Asset", MatteKind::Asset}};
 
 // --- Settings
-// -------------------------------------------------------------------------------------
 
 using Crop = std::optional<std::array<int, 4>>;
 using Expressions = std::vector<std::pair<std::string, std::string>>;
@@ -221,33 +220,32 @@ void bind_settings(py::module_& m) {
       "crop: (x0, y0, x1, y1) in pixels of the full frame from the bottom left; seconds: time "
       "limit, 0 for none; threads: 0 for all; max_bounces: as in Cycles, 0 is direct light; "
       "max_diffuse_bounces, max_glossy_bounces, max_transmission_bounces: of them by kind; "
-      "transparent_max_bounces: surfaces passed by alpha or transparency; "
-      "clamp_direct, clamp_indirect: the most that a contribution adds to a sample, 0 for no limit;"
-      " integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
-      "pixels; light_paths per pixel; connections per camera vertex; merge_radius: bdpt merges "
-      "vertices that are so close, too, in scene units, 0 for none; adaptive_counts: bdpt "
-      "starts with these two and then takes what is most efficient for the scene; heuristic: "
-      "BALANCE or POWER, or NONE: bdpt without weights; strategies: then those "
-      "alone, as '0,* 2,3' (s vertices from the light, t from the camera), averaged by length; "
-      "next_event: False leaves next event estimation out: pt then finds lights by hitting them, "
-      "and lt a camera with a lens; connection_mode: CACHE or CLASSIC (a light path for each "
-      "camera path); expressions: (name, light path expression) of each additional pass; "
-      "light_passes: Cycles' passes by Blender's names, DiffDir, DiffInd, DiffCol, the same of "
-      "Gloss and Trans, Emit and Env; strategy_images: bdpt makes passes for each strategy of "
-      "paths of up to so many edges; shadow_catcher: a pass of what shadow catchers show, and not "
-      "in the picture; data_passes: Depth, Position, IndexOB, IndexMA (of the first sample of a "
-      "pixel), Normal, UV, Vector, Mist, AO, Denoising Albedo, Denoising Normal, Denoising Depth, "
-      "Debug Sample Count; cryptomatte: Object, Material, Asset, each in so many "
-      "cryptomatte_levels (pictures of two ids); "
-      "pass_alpha_threshold: surfaces with less alpha are looked through; occlusion_distance: how "
-      "far away the surroundings occlude (0: however far); mist: start and depth in metres, and "
-      "the power of the falloff; "
-      "noise_threshold: pixels with less noise, as Cycles measures it, stop after min_samples (0: "
-      "a number by the threshold); 0: none stops; motion_blur: whether what moves is blurred; "
-      "film_exposure: a factor of the colour; film_transparent: the world is not in the picture; "
-      "film_transparent_glass: nor behind glass of up to film_transparent_roughness; "
-      "roulette: False traces every path and every shadow ray to its end (slow); "
-      "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
+      "transparent_max_bounces: surfaces passed by alpha or transparency; clamp_direct, "
+      "clamp_indirect: the most that a contribution adds to a sample, 0 for no limit; integrator: "
+      "bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in pixels; "
+      "light_paths per pixel; connections per camera vertex; merge_radius: bdpt merges vertices "
+      "that are so close, too, in scene units, 0 for none; adaptive_counts: bdpt starts with "
+      "these two and then takes what is most efficient for the scene; heuristic: BALANCE or "
+      "POWER, or NONE: bdpt without weights; strategies: then those alone, as '0,* 2,3' (s "
+      "vertices from the light, t from the camera), averaged by length; next_event: False leaves "
+      "next event estimation out: pt then finds lights by hitting them, and lt a camera with a "
+      "lens; connection_mode: CACHE or CLASSIC (a light path for each camera path); expressions: "
+      "(name, light path expression) of each additional pass; light_passes: Cycles' passes by "
+      "Blender's names, DiffDir, DiffInd, DiffCol, the same of Gloss and Trans, Emit and Env; "
+      "strategy_images: bdpt makes passes for each strategy of paths of up to so many edges; "
+      "shadow_catcher: a pass of what shadow catchers show, and not in the picture; data_passes: "
+      "Depth, Position, IndexOB, IndexMA (of the first sample of a pixel), Normal, UV, Vector, "
+      "Mist, AO, Denoising Albedo, Denoising Normal, Denoising Depth, Debug Sample Count; "
+      "cryptomatte: Object, Material, Asset, each in so many cryptomatte_levels (pictures of two "
+      "ids); pass_alpha_threshold: surfaces with less alpha are looked through; "
+      "occlusion_distance: how far away the surroundings occlude (0: however far); mist: start "
+      "and depth in metres, and the power of the falloff; noise_threshold: pixels with less "
+      "noise, as Cycles measures it, stop after min_samples (0: a number by the threshold); 0: "
+      "none stops; motion_blur: whether what moves is blurred; film_exposure: a factor of the "
+      "colour; film_transparent: the world is not in the picture; film_transparent_glass: nor "
+      "behind glass of up to film_transparent_roughness; roulette: False traces every path and "
+      "every shadow ray to its end (slow); check_weights: compare the MIS weights of sampled "
+      "paths with their definition (slow).");
   settings.def(
       py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
       "crop"_a = py::none(), "samples"_a = d.samples, "noise_threshold"_a = d.noise_threshold,
@@ -292,7 +290,6 @@ void bind_settings(py::module_& m) {
 }
 
 // --- Session
-// --------------------------------------------------------------------------------------
 
 bool wait(RenderSession& self, double seconds) {
   return wait_slices([&](double slice) { return self.wait(slice); }, seconds);

@@ -100,7 +100,7 @@ def test_f12_shows_the_shadow(shadow, layer):
     assert not picture[..., :3].any() and middle[3] > 0.6 and corner[3] < 0.02
     assert not passes["Combined"].any()
     factor = passes["Shadow Catcher"].mean(axis=2)
-    assert np.allclose(1.0 - factor, picture[..., 3], atol=1e-5)
+    assert np.allclose(np.clip(1.0 - factor, 0.0, 1.0), picture[..., 3], atol=1e-5)
     assert messages() == []
 
 
