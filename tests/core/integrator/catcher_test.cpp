@@ -225,6 +225,17 @@ TEST(Catchers, AloneChangeNothing) {
   }
 }
 
+// What the camera alone sees takes a share of the pixels, and no light, wherever it is.
+TEST(Catchers, StandBehindWhatMoves) {
+  SceneKit kit = floor_under_suns(false);
+  kit.add("thing", plane(0.5f, 0.5f), diffuse(Rgb(0.5f)), translation({0, 0, 1}),
+          ray_bit(RayType::Camera));
+  kit.builder.set_instance_motion("thing", {translation({-0.5f, 0, 1}), translation({0.5f, 0, 1})});
+  RenderSettings settings = small_picture(IntegratorType::PathTracer, 16);
+  settings.shadow_catcher = true;
+  expect_pixels(rendered(kit.build(), settings)->snapshot(kFactor), {1}, 1e-5f);
+}
+
 // --- The picture ---------------------------------------------------------------------------------
 
 TEST(Catchers, ArePutTogetherFromTheirParts) {
