@@ -190,6 +190,8 @@ py::dict counts(const Scene& scene) {
   result["materials"] = scene.surfaces.size() - 1;  // without the default surface
   result["lights"] = scene.lights.size();
   result["meshes_built"] = scene.accel->built();
+  result["shadow_catchers"] =
+      scene.catchers_alone ? scene.catchers_alone->instances.size() : size_t{0};
   return result;
 }
 
@@ -221,8 +223,9 @@ void bind_scene(py::module_& m) {
           "What could not be rendered as asked: list of Diagnostic.")
       .def_property_readonly("counts", &counts,
                              "Numbers of meshes, instances, triangles (with instances), materials, "
-                             "lights (sources with their own sampling), and meshes_built: those "
-                             "that are not shared with the scene before.");
+                             "lights (sources with their own sampling), meshes_built: those that "
+                             "are not shared with the scene before, and shadow_catchers, if the "
+                             "camera may see some.");
 
   // release_gil_before_calling_cpp_dtor: the destructor waits for the thread.
   py::class_<CommitTask>(m, "CommitTask", py::release_gil_before_calling_cpp_dtor(),

@@ -104,6 +104,30 @@ def test_f12_shows_the_shadow(shadow, layer):
     assert messages() == []
 
 
+def test_denoising_is_for_the_shadow_in_alpha_too(shadow, layer, monkeypatch):
+    seen = []
+
+    def denoise(color, **_):
+        seen.append(color)
+        return 0.5 * color
+
+    monkeypatch.setattr(part("render.denoise"), "denoise", denoise)
+    shadow.janus.use_denoising = True
+    final = part("render.final")
+    final.keep_passes_of.add(shadow.name_full)
+    try:
+        bpy.ops.render.render()
+        passes = final.kept_passes[layer.name]
+    finally:
+        final.keep_passes_of.clear()
+        final.kept_passes.clear()
+    assert [pixels.shape[2] for pixels in seen] == [4, 3]
+    assert np.allclose(passes["Combined"], 0.25 * passes["Noisy Image"])
+    shadow.objects["Floor"].is_shadow_catcher = False
+    bpy.ops.render.render()
+    assert len(seen) == 3
+
+
 def test_viewports_show_the_shadow_and_follow(shadow, core):
     from viewport_kit import Eye, followed_by
 
