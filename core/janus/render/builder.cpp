@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "janus/light/dark_light.h"
 #include "janus/render/camera_checks.h"
 #include "janus/render/lamp.h"
 #include "janus/render/onlookers.h"
@@ -113,6 +114,9 @@ class Commit {
   }
 
   void add_mesh_lights() {
+    if (scene_.whole) {
+      add_dark_mesh_lights();
+    }
     for (size_t i = 0; i < scene_.instances.size(); ++i) {
       Instance& instance = scene_.instances[i];
       const bool emits =
@@ -142,16 +146,14 @@ class Commit {
     const LampSurroundings around{view_of(camera), SceneBox(scene_.surroundings),
                                   [&](const LightDesc& lamp) { return surfaces_near(lamp); }};
     for (const auto& [key, desc] : lights) {
-      if (scene_.whole && !desc.lights_catchers) {
-        continue;
-      }
+      const bool shines = !scene_.whole || desc.lights_catchers;
       LightDesc lamp = desc;
       if (lamp.name.empty()) {
         lamp.name = key;
       }
       for (auto& light : make_lamp(std::move(lamp), images, around, scene_.diagnostics)) {
         light->light_group = desc.light_group;
-        add_light(std::move(light));
+        add_light(shines ? std::move(light) : std::make_unique<DarkLight>(std::move(light)));
       }
     }
   }
@@ -181,6 +183,16 @@ class Commit {
   }
 
  private:
+  // Those of the whole scene that are not in this one.
+  void add_dark_mesh_lights() {
+    for (const Instance& instance : scene_.whole->instances) {
+      if (instance.light >= 0 && !instance.catcher) {
+        const auto& light = scene_.whole->lights[static_cast<size_t>(instance.light)];
+        scene_.lights.push_back(std::make_shared<const DarkLight>(light));
+      }
+    }
+  }
+
   void warn(const std::string& object, const std::string& message) {
     scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
   }
