@@ -71,6 +71,12 @@ class JanusViewLayerSettings(bpy.types.PropertyGroup):
         default=True,
         update=update_passes,
     )
+    use_pass_shadow_catcher: BoolProperty(
+        name="Shadow Catcher",
+        description="Deliver the factor by which shadows and light on shadow catchers change the "
+        "footage behind the picture, which is then without them",
+        update=update_passes,
+    )
     use_pass_direct: BoolProperty(
         name="Direct",
         description="Deliver the light that comes to the seen surface straight from its source",

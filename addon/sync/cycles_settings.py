@@ -70,15 +70,19 @@ def from_cycles(scene) -> dict:
     return values
 
 
-def layer_denoises(layer) -> bool:
-    """view_layer.janus.use_denoising, or Cycles' while the file has none."""
-    if layer.janus.is_property_set("use_denoising"):
-        return layer.janus.use_denoising
-    return _cycles_layer_denoises(layer)
+# By name in view_layer.janus and in view_layer.cycles: what it is without both.
+OF_LAYERS = {"use_denoising": True, "use_pass_shadow_catcher": False}
 
 
-def _cycles_layer_denoises(layer) -> bool:
-    return getattr(getattr(layer, "cycles", None), "use_denoising", True)
+def layer_value(layer, name: str) -> bool:
+    """A setting of view_layer.janus, or Cycles' while the file has none."""
+    if layer.janus.is_property_set(name):
+        return getattr(layer.janus, name)
+    return _of_cycles_layer(layer, name)
+
+
+def _of_cycles_layer(layer, name: str) -> bool:
+    return getattr(getattr(layer, "cycles", None), name, OF_LAYERS[name])
 
 
 def adopted(scene) -> bool:
@@ -93,8 +97,9 @@ def adopt(scene, again: bool = False) -> None:
         if again or not scene.janus.is_property_set(name):
             setattr(scene.janus, name, values.get(name, getattr(scene.janus, name)))
     for layer in scene.view_layers:
-        if again or not layer.janus.is_property_set("use_denoising"):
-            layer.janus.use_denoising = _cycles_layer_denoises(layer)
+        for name in OF_LAYERS:
+            if again or not layer.janus.is_property_set(name):
+                setattr(layer.janus, name, _of_cycles_layer(layer, name))
     scene.janus.cycles_notice = bool(values)
 
 

@@ -11,6 +11,7 @@ from .properties import OF_INSTANCE, OF_OBJECT, InstanceProperties, object_attri
 from .visibility import (
     UNSUPPORTED_TYPES,
     check_object,
+    is_shadow_catcher,
     light_group,
     surface_seen_by,
 )
@@ -74,7 +75,9 @@ class InstanceSync:
             elif kind == "LIGHT":
                 key = self._cache.place("light")
                 matrix = instance.matrix_world
-                links = self._linking.of_light(obj, owner_of(instance))
+                owner = owner_of(instance)
+                links = self._linking.of_light(obj, owner)
+                links["lights_catchers"] = is_shadow_catcher(obj, owner)
                 sync_light(
                     self._builder, key, obj, matrix, depsgraph, self._images, links, self._log
                 )

@@ -10,7 +10,7 @@ from .visibility import LIGHT_RAYS, light_group, seen_by
 
 def sync_light(builder, key: str, obj, matrix, depsgraph, images, links: dict, log) -> None:
     """Sends the light object `obj` at `matrix`; portals, which emit nothing, are left out. `links`:
-    Linking.of_light().
+    what it shines on, Linking.of_light() among it.
     """
     light = obj.data
     if getattr(getattr(light, "cycles", None), "is_portal", False):

@@ -78,6 +78,7 @@ class Pass:
 
 
 COMBINED = Pass("Combined", "Combined", "RGBA")
+SHADOW_CATCHER = Pass("Shadow Catcher", "Shadow Catcher")
 NOISY_IMAGE = Pass("Noisy Image", "Combined", "RGBA")  # Combined before it is denoised
 
 
@@ -88,13 +89,24 @@ def requested(scene, layer) -> list[Pass]:
     noisy = [NOISY_IMAGE] if denoises(scene, layer) else []
     own = [Pass(name, name) for name in names]
     made = [Pass(aov.name, f"AOV {aov.name}", *AOV_CHANNELS[aov.type]) for aov in aovs(layer)]
-    return [*data_passes(layer), *light_passes(layer), *mattes(layer), *made, *noisy, *own]
+    caught = [SHADOW_CATCHER] if catches_shadows(layer) else []
+    of_data, of_light = data_passes(layer), light_passes(layer)
+    return [*of_data, *of_light, *caught, *mattes(layer), *made, *noisy, *own]
+
+
+def catches_shadows(layer) -> bool:
+    """Are the shadows on shadow catchers a pass, and not in the picture?"""
+    return cycles_settings.layer_value(layer, "use_pass_shadow_catcher")
 
 
 def denoises(scene, layer) -> bool:
     """Is the picture to be denoised? Not that of strategies: their sum must be the picture."""
     wanted = cycles_settings.value(scene, "use_denoising")
-    return wanted and cycles_settings.layer_denoises(layer) and not strategy_length(scene)
+    return (
+        wanted
+        and cycles_settings.layer_value(layer, "use_denoising")
+        and not strategy_length(scene)
+    )
 
 
 def arguments(scene, layer) -> dict:
@@ -115,6 +127,7 @@ def arguments(scene, layer) -> dict:
         "expressions": wanted,
         "light_passes": [found.key for found in light_passes(layer)],
         "strategy_images": strategy_length(scene),
+        "shadow_catcher": catches_shadows(layer),
         **data_arguments(scene, layer),
     }
 
@@ -188,7 +201,7 @@ def aov_problem(layer, aov) -> str:
 
     Blender compares names, too (is_valid), but not when a layer gets another engine.
     """
-    taken = {COMBINED.name, NOISY_IMAGE.name}
+    taken = {COMBINED.name, NOISY_IMAGE.name, SHADOW_CATCHER.name}
     taken |= {found.name for found in (*data_passes(layer), *light_passes(layer), *mattes(layer))}
     taken |= {name for name, _ in expressions(layer)}
     if aov.is_valid and aov.name not in taken:
@@ -198,10 +211,7 @@ def aov_problem(layer, aov) -> str:
 
 def unsupported(layer) -> list[str]:
     """What to say of passes that the view layer asks for and does not get."""
-    found = []
-    if getattr(getattr(layer, "cycles", None), "use_pass_shadow_catcher", False):
-        found.append("The pass 'Shadow Catcher' is not supported yet, it stays empty")
-    return found + [problem for aov in layer.aovs if (problem := aov_problem(layer, aov))]
+    return [problem for aov in layer.aovs if (problem := aov_problem(layer, aov))]
 
 
 def light_passes(layer) -> list[Pass]:
@@ -240,7 +250,7 @@ def name_problem(layer, item) -> str:
         return "The name of a pass must have no dot, OpenEXR files divide names there"
     if len(item.name.encode()) > MAX_NAME_BYTES:
         return "The name of the pass is too long"
-    taken = {COMBINED.name, NOISY_IMAGE.name}
+    taken = {COMBINED.name, NOISY_IMAGE.name, SHADOW_CATCHER.name}
     taken |= {name for names in (*LIGHT_PASSES, *DATA_PASSES) for name in names[1:3]}
     taken |= {names[1] for names in OWN_DATA_PASSES} | {found.name for found in mattes(layer)}
     taken |= {name for toggle, name, _ in READY_MADE if getattr(layer.janus, toggle)}

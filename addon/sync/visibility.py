@@ -44,13 +44,18 @@ def surface_seen_by(instance, view_layer) -> dict:
         seen = {name: seen[name] and value for name, value in seen_by(owner).items()}
     seen["visible_camera"] &= not owner.original.indirect_only_get(view_layer=view_layer)
     seen["holdout"] = owner.original.holdout_get(view_layer=view_layer)
+    seen["shadow_catcher"] = is_shadow_catcher(instance.object, owner)
     return seen
+
+
+def is_shadow_catcher(obj, owner) -> bool:
+    """Is it part of the footage that the picture is laid over? `owner`: who shows it. Of lights,
+    which most often are, Blender keeps the same setting."""
+    return obj.is_shadow_catcher or owner.is_shadow_catcher
 
 
 def check_object(obj, scene, log) -> None:
     """What concerns one object that has a surface."""
-    if obj.is_shadow_catcher:
-        log.warning("shadow catchers are not supported yet", object=obj.name)
     settings, of_scene = getattr(obj, "cycles", None), getattr(scene, "cycles", None)
     if settings is None or of_scene is None:
         return

@@ -149,10 +149,9 @@ class JANUS_LIGHT_PT_settings(LightPanel, bpy.types.Panel):
         column.prop(light, "use_shadow", text="Cast Shadow")
 
 
-class JANUS_OBJECT_PT_ray_visibility(JanusPanel, bpy.types.Panel):
-    """Blender's panel of the visibility shows these settings in Eevee only."""
+class VisibilityPanel(JanusPanel):
+    """Blender's panel of the visibility shows these settings in other engines only."""
 
-    bl_label = "Ray Visibility"
     bl_context = "object"
     bl_parent_id = "OBJECT_PT_visibility"
 
@@ -163,6 +162,20 @@ class JANUS_OBJECT_PT_ray_visibility(JanusPanel, bpy.types.Panel):
             return False
         kinds = {"MESH", "CURVE", "SURFACE", "META", "FONT", "LIGHT"}
         return obj.type in kinds or obj.instance_type == "COLLECTION"
+
+
+class JANUS_OBJECT_PT_mask(VisibilityPanel, bpy.types.Panel):
+    bl_label = "Mask"
+
+    def draw(self, context):
+        column = self.column()
+        column.prop(context.object, "is_shadow_catcher")
+        if context.object.type != "LIGHT":
+            column.prop(context.object, "is_holdout")
+
+
+class JANUS_OBJECT_PT_ray_visibility(VisibilityPanel, bpy.types.Panel):
+    bl_label = "Ray Visibility"
 
     def draw(self, context):
         obj = context.object
@@ -180,5 +193,6 @@ CLASSES = (
     JANUS_LIGHT_PT_beam,
     JANUS_LIGHT_PT_nodes,
     JANUS_LIGHT_PT_settings,
+    JANUS_OBJECT_PT_mask,
     JANUS_OBJECT_PT_ray_visibility,
 )

@@ -86,6 +86,7 @@ class JANUS_VIEWLAYER_PT_passes_light(PassesPanel, bpy.types.Panel):
         column.prop(layer, "use_pass_emit", text="Emission")
         column.prop(layer, "use_pass_environment")
         column.prop(layer, "use_pass_ambient_occlusion")
+        column.prop(layer.janus, "use_pass_shadow_catcher")
 
 
 class JANUS_VIEWLAYER_PT_passes_lightgroups(PassesPanel, bpy.types.Panel):

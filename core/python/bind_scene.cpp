@@ -98,8 +98,9 @@ void set_light(SceneBuilder& self, Key key, std::string name, const std::string&
                bool normalize, float exposure, bool visible_camera, bool visible_diffuse,
                bool visible_glossy, bool visible_transmission, bool cast_shadow, int max_bounces,
                const std::optional<py::dict>& graph, std::string light_group, int receiver_set,
-               int blocker_set) {
+               int blocker_set, bool lights_catchers) {
   LightDesc desc;
+  desc.lights_catchers = lights_catchers;
   desc.links = to_links(key, receiver_set, blocker_set);
   desc.light_group = std::move(light_group);
   desc.name = std::move(name);
@@ -191,6 +192,8 @@ py::dict counts(const Scene& scene) {
   result["materials"] = scene.surfaces.size() - 1;  // without the default surface
   result["lights"] = scene.lights.size();
   result["meshes_built"] = scene.accel->built();
+  result["shadow_catchers"] =
+      scene.catchers_alone ? scene.catchers_alone->instances.size() : size_t{0};
   return result;
 }
 
@@ -222,8 +225,9 @@ void bind_scene(py::module_& m) {
           "What could not be rendered as asked: list of Diagnostic.")
       .def_property_readonly("counts", &counts,
                              "Numbers of meshes, instances, triangles (with instances), materials, "
-                             "lights (sources with their own sampling), and meshes_built: those "
-                             "that are not shared with the scene before.");
+                             "lights (sources with their own sampling), meshes_built: those that "
+                             "are not shared with the scene before, and shadow_catchers, if the "
+                             "camera may see some.");
 
   // release_gil_before_calling_cpp_dtor: the destructor waits for the thread.
   py::class_<CommitTask>(m, "CommitTask", py::release_gil_before_calling_cpp_dtor(),
@@ -287,13 +291,14 @@ void bind_scene(py::module_& m) {
              const std::array<float, 4>& color, float object_index, float random,
              const std::map<std::string, std::array<float, 4>>& attributes, std::string light_group,
              std::string asset, int receiver_set, int blocker_set, const std::vector<int>& unlit_by,
-             const std::vector<int>& lets_pass) {
+             const std::vector<int>& lets_pass, bool shadow_catcher) {
             InstanceDesc desc{std::move(name),
                               std::move(mesh),
                               to_matrix(key, transform),
                               std::move(materials),
                               to_mask(camera, diffuse, glossy, transmission, shadow),
                               holdout,
+                              shadow_catcher,
                               vec4(color[0], color[1], color[2], color[3]),
                               object_index,
                               random,
@@ -316,6 +321,7 @@ void bind_scene(py::module_& m) {
           "random"_a = 0.0f, "attributes"_a = std::map<std::string, std::array<float, 4>>(),
           "light_group"_a = "", "asset"_a = "", "receiver_set"_a = -1, "blocker_set"_a = -1,
           "unlit_by"_a = std::vector<int>(), "lets_pass"_a = std::vector<int>(),
+          "shadow_catcher"_a = false,
           "Places mesh `mesh` (a key) in the world; materials: a key or None for each slot; "
           "visible_*: the rays that meet it; holdout: leaves a hole in the picture where the "
           "camera "
@@ -326,7 +332,8 @@ void bind_scene(py::module_& m) {
           "some "
           "things only, and are blocked by some only (-1: none); unlit_by, lets_pass: those that "
           "do "
-          "not shine on it, and that it is not in the way of; the rest is "
+          "not shine on it, and that it is not in the way of; shadow_catcher: part of the footage "
+          "that the picture is laid over, which shows only what is done to its light; the rest is "
           "what the Object Info node says.")
       .def("set_light", &set_light, "key"_a, py::kw_only(), "name"_a, "type"_a, "transform"_a,
            "color"_a = std::array{1.0f, 1.0f, 1.0f}, "energy"_a = 10.0f, "radius"_a = 0.0f,
@@ -336,10 +343,11 @@ void bind_scene(py::module_& m) {
            "visible_camera"_a = true, "visible_diffuse"_a = true, "visible_glossy"_a = true,
            "visible_transmission"_a = true, "cast_shadow"_a = true, "max_bounces"_a = 1024,
            "graph"_a = py::none(), "light_group"_a = "", "receiver_set"_a = -1,
-           "blocker_set"_a = -1,
+           "blocker_set"_a = -1, "lights_catchers"_a = true,
            "A light object, in Blender's words and units: type POINT, SPOT, SUN or AREA; energy in "
            "watts (sun: W/m^2); angles in radians; shape SQUARE, RECTANGLE, DISK or ELLIPSE; sets "
-           "as in set_instance().")
+           "as in set_instance(); lights_catchers: it is part of the footage (shadow_catcher "
+           "there).")
       .def(
           "set_world",
           [](SceneBuilder& self, std::string name, const std::optional<py::dict>& graph,

@@ -27,7 +27,6 @@ constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Wa
                                                  {"failed", Progress::State::Failed}};
 
 // --- Settings
-// -------------------------------------------------------------------------------------
 
 using Crop = std::optional<std::array<int, 4>>;
 using Expressions = std::vector<std::pair<std::string, std::string>>;
@@ -79,7 +78,7 @@ RenderSettings make_settings(
     float film_transparent_roughness, bool roulette, bool check_weights, bool next_event,
     const std::string& connection_mode, const std::string& strategies,
     const Expressions& expressions, const std::vector<std::string>& light_passes,
-    int strategy_images, const std::vector<std::string>& data_passes,
+    int strategy_images, bool shadow_catcher, const std::vector<std::string>& data_passes,
     const std::vector<std::string>& cryptomatte, int cryptomatte_levels, float pass_alpha_threshold,
     const std::array<float, 3>& mist, float occlusion_distance, const AovList& aovs) {
   RenderSettings s;
@@ -119,6 +118,7 @@ RenderSettings make_settings(
   }
   s.light_passes = light_passes;
   s.strategy_images = strategy_images;
+  s.shadow_catcher = shadow_catcher;
   s.motion_blur = motion_blur;
   s.film_exposure = film_exposure;
   s.film_transparent = film_transparent;
@@ -164,6 +164,7 @@ py::dict to_dict(const RenderSettings& s) {
   d["light_passes"] = s.light_passes;
   d["strategy_images"] = s.strategy_images;
   add_data(d, s.data);
+  d["shadow_catcher"] = s.shadow_catcher;
   d["pass_alpha_threshold"] = s.data_settings.alpha_threshold;
   const Mist& mist = s.data_settings.mist;
   d["mist"] = py::make_tuple(mist.start, mist.depth, mist.falloff);
@@ -186,35 +187,34 @@ void bind_settings(py::module_& m) {
       "crop: (x0, y0, x1, y1) in pixels of the full frame from the bottom left; seconds: time "
       "limit, 0 for none; threads: 0 for all; max_bounces: as in Cycles, 0 is direct light; "
       "max_diffuse_bounces, max_glossy_bounces, max_transmission_bounces: of them by kind; "
-      "transparent_max_bounces: surfaces passed by alpha or transparency; "
-      "clamp_direct, clamp_indirect: the most that a contribution adds to a sample, 0 for no "
-      "limit; "
-      "integrator: bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in "
-      "pixels; light_paths per pixel; connections per camera vertex; "
-      "merge_radius: bdpt also merges vertices that are so close, in scene units, 0 for none; "
-      "adaptive_counts: bdpt starts with these two and then takes what is most efficient for the "
-      "scene; heuristic: BALANCE or POWER, or NONE: bdpt without weights; strategies: then those "
-      "alone, as '0,* 2,3' (s vertices from the light, t from the camera), averaged by length; "
-      "next_event: False leaves next event estimation out: pt then finds lights by hitting them, "
-      "and lt a camera with a lens; connection_mode: CACHE or CLASSIC (a light path for each "
-      "camera path); expressions: (name, light path expression) of each additional pass; "
-      "light_passes: Cycles' passes by Blender's names, DiffDir, DiffInd, DiffCol, the same of "
-      "Gloss and Trans, Emit and Env; strategy_images: bdpt makes passes for each strategy of "
-      "paths of up to so many edges; data_passes: Depth, Position, IndexOB, IndexMA (of the first "
-      "sample of a pixel), Normal, UV, Vector, Mist, AO, Denoising Albedo, Denoising Normal, "
-      "Denoising Depth, Debug Sample Count; cryptomatte: "
-      "Object, Material, Asset, each in so many cryptomatte_levels (pictures of two ids); "
-      "pass_alpha_threshold: surfaces with less alpha are looked through; occlusion_distance: how "
-      "far away the surroundings occlude (0: however far); aovs: (name, COLOR or VALUE) of what "
-      "AOV Output "
-      "nodes write, the picture is called 'AOV name'; mist: start and depth in metres, and "
-      "the power of the falloff; "
-      "noise_threshold: pixels with less noise, as Cycles measures it, stop after min_samples (0: "
-      "a number by the threshold); 0: none stops; motion_blur: whether what moves is blurred; "
-      "film_exposure: a factor of the colour; film_transparent: the world is not in the picture; "
-      "film_transparent_glass: nor behind glass of up to film_transparent_roughness; "
-      "roulette: False traces every path and every shadow ray to its end (slow); "
-      "check_weights: compare the MIS weights of sampled paths with their definition (slow).");
+      "transparent_max_bounces: surfaces passed by alpha or transparency; clamp_direct, "
+      "clamp_indirect: the most that a contribution adds to a sample, 0 for no limit; integrator: "
+      "bdpt, pt or lt; filter: BLACKMAN_HARRIS, GAUSSIAN or BOX, filter_width in pixels; "
+      "light_paths per pixel; connections per camera vertex; merge_radius: bdpt merges vertices "
+      "that are so close, too, in scene units, 0 for none; adaptive_counts: bdpt starts with "
+      "these two and then takes what is most efficient for the scene; heuristic: BALANCE or "
+      "POWER, or NONE: bdpt without weights; strategies: then those alone, as '0,* 2,3' (s "
+      "vertices from the light, t from the camera), averaged by length; next_event: False leaves "
+      "next event estimation out: pt then finds lights by hitting them, and lt a camera with a "
+      "lens; connection_mode: CACHE or CLASSIC (a light path for each camera path); expressions: "
+      "(name, light path expression) of each additional pass; light_passes: Cycles' passes by "
+      "Blender's names, DiffDir, DiffInd, DiffCol, the same of Gloss and Trans, Emit and Env; "
+      "strategy_images: bdpt makes passes for each strategy of paths of up to so many edges; "
+      "shadow_catcher: a pass of what shadow catchers show, and not in the picture; data_passes: "
+      "Depth, Position, IndexOB, IndexMA (of the first sample of a pixel), Normal, UV, Vector, "
+      "Mist, AO, Denoising Albedo, Denoising Normal, Denoising Depth, Debug Sample Count; "
+      "cryptomatte: Object, Material, Asset, each in so many cryptomatte_levels (pictures of two "
+      "ids); pass_alpha_threshold: surfaces with less alpha are looked through; "
+      "occlusion_distance: how far away the surroundings occlude (0: however far); aovs: (name, "
+      "COLOR or VALUE) of what AOV Output nodes write, the picture is called 'AOV name'; mist: "
+      "start "
+      "and depth in metres, and the power of the falloff; noise_threshold: pixels with less "
+      "noise, as Cycles measures it, stop after min_samples (0: a number by the threshold); 0: "
+      "none stops; motion_blur: whether what moves is blurred; film_exposure: a factor of the "
+      "colour; film_transparent: the world is not in the picture; film_transparent_glass: nor "
+      "behind glass of up to film_transparent_roughness; roulette: False traces every path and "
+      "every shadow ray to its end (slow); check_weights: compare the MIS weights of sampled "
+      "paths with their definition (slow).");
   settings.def(
       py::init(&make_settings), py::kw_only(), "width"_a = d.width, "height"_a = d.height,
       "crop"_a = py::none(), "samples"_a = d.samples, "noise_threshold"_a = d.noise_threshold,
@@ -235,8 +235,9 @@ void bind_settings(py::module_& m) {
       "check_weights"_a = d.check_weights, "next_event"_a = d.next_event,
       "connection_mode"_a = to_name(kConnectionModes, d.connection_mode), "strategies"_a = "",
       "expressions"_a = Expressions(), "light_passes"_a = std::vector<std::string>(),
-      "strategy_images"_a = d.strategy_images, "data_passes"_a = std::vector<std::string>(),
-      "cryptomatte"_a = std::vector<std::string>(), "cryptomatte_levels"_a = d.data.matte_levels,
+      "strategy_images"_a = d.strategy_images, "shadow_catcher"_a = d.shadow_catcher,
+      "data_passes"_a = std::vector<std::string>(), "cryptomatte"_a = std::vector<std::string>(),
+      "cryptomatte_levels"_a = d.data.matte_levels,
       "pass_alpha_threshold"_a = d.data_settings.alpha_threshold,
       "mist"_a = std::array{d.data_settings.mist.start, d.data_settings.mist.depth,
                             d.data_settings.mist.falloff},
@@ -258,7 +259,6 @@ void bind_settings(py::module_& m) {
 }
 
 // --- Session
-// --------------------------------------------------------------------------------------
 
 bool wait(RenderSession& self, double seconds) {
   return wait_slices([&](double slice) { return self.wait(slice); }, seconds);

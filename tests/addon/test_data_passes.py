@@ -6,7 +6,7 @@ import json
 import bpy
 import numpy as np
 import pytest
-from conftest import add_square, messages, part
+from conftest import add_square, part
 
 TOGGLES = [
     f"use_pass_{name}"
@@ -105,12 +105,6 @@ def test_uv_needs_no_material_that_reads_it(scene, layer, core, tmp_path):
     pictures, _ = saved(scene, tmp_path / "uv.exr")
     uv = pictures["UV"][pictures["UV"][..., 2] > 0.99]
     assert uv[:, :2].max() > 0.7 and uv[:, :2].min() < 0.3
-
-
-def test_what_is_not_made_is_said(scene, layer, core):
-    layer.cycles.use_pass_shadow_catcher = True
-    bpy.ops.render.render()
-    assert "'Shadow Catcher' is not supported" in " ".join(messages())
 
 
 def test_mist_is_the_worlds(scene, layer):

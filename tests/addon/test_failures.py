@@ -21,7 +21,7 @@ def fail_after(samples):
 
 
 def test_only_an_error_report_fails_a_render(scene, fake_core):
-    add_square().is_shadow_catcher = True  # a warning
+    add_square().cycles.shadow_terminator_offset = 0.2  # a warning
     assert bpy.ops.render.render() == {"FINISHED"}
     fake_core.script = fail_after(2)
     with pytest.raises(RuntimeError, match="the core broke"):

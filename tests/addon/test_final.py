@@ -117,6 +117,7 @@ def test_settings_reach_the_core(scene, fake_core):
         "expressions": [],
         "light_passes": [],
         "strategy_images": 0,
+        "shadow_catcher": False,
     }
 
 

@@ -298,6 +298,10 @@ def test_ray_visibility_of_objects(scene):
     empty.instance_type = "COLLECTION"
     assert polled(name, object=empty)
     assert bpy.types.OBJECT_PT_visibility.COMPAT_ENGINES >= {"JANUS"}
+    name = "JANUS_OBJECT_PT_mask"
+    assert draw(name, object=square) == ["is_shadow_catcher", "is_holdout"]
+    assert draw(name, object=lamp) == ["is_shadow_catcher"]
+    assert polled(name, object=lamp) and not polled(name, object=scene.camera)
 
 
 def test_ray_visibility_of_worlds(scene):

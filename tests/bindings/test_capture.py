@@ -91,6 +91,20 @@ def test_holdouts(tmp_path):
     assert not held[4:-4, 4:-4].any()  # the border sees the edge of the floor
 
 
+def test_shadow_catchers(tmp_path):
+    builder = capture.CapturingBuilder()
+    fill(builder)
+    for key, arguments in builder._items["instance"].items():
+        builder.set_instance(key, **arguments | {"shadow_catcher": True})
+    settings = janus_core.RenderSettings(**SETTINGS, film_transparent=True)
+    builder.save(tmp_path / "caught.npz", settings)
+    again, settings = capture.load(tmp_path / "caught.npz")
+    session = janus_core.RenderSession(again.commit(), settings)
+    session.start()
+    session.finish()
+    assert not session.snapshot().any()  # nothing is done to their light
+
+
 def test_motion(tmp_path):
     builder = capture.CapturingBuilder()
     fill(builder)
@@ -139,6 +153,7 @@ PASSES = (
     "expressions",
     "light_passes",
     "strategy_images",
+    "shadow_catcher",
 )
 FILM = ("film_exposure", "film_transparent_glass", "film_transparent_roughness")
 

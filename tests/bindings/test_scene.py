@@ -34,6 +34,7 @@ def test_counts(builder):
         "materials": 1,
         "lights": 1,
         "meshes_built": 1,
+        "shadow_catchers": 0,
     }
 
 

@@ -71,6 +71,7 @@ struct CameraConnection {
 struct LensHit {
   vec2 raster;
   float importance;  // W_e: a pixel's response to the flux that comes in here
+  vec3 position;     // on the lens
 };
 
 class Camera {

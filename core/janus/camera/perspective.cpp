@@ -90,7 +90,8 @@ class PerspectiveCamera final : public Camera {
         !(t > near_ * chief_length && t < far_ * chief_length)) {
       return std::nullopt;
     }
-    return LensHit{raster, pdf_solid(d.z) / (aperture_.area() * d.z)};
+    return LensHit{raster, pdf_solid(d.z) / (aperture_.area() * d.z),
+                   ray.origin + t * ray.direction};
   }
 
  private:

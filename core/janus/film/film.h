@@ -106,6 +106,12 @@ class Film {
   // the root of the brightness (where it is bright, to the brightness), with `exposure`.
   void stop_converged(float threshold, float exposure, ThreadPool& pool);
 
+  // Between passes, of adaptive films: the same pixels stop as have stopped in `other`.
+  void stop_with(const Film& other) {
+    stopped_ = other.stopped_;
+    active_pixels_ = other.active_pixels_;
+  }
+
   // The mean of a pixel over the passes (at least one).
   Rgb mean(size_t index) const { return Rgb(sum_[index] / passes_of(index)); }
 

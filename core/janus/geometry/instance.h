@@ -24,6 +24,7 @@ struct Instance {
   // The copies of it, with itself, that other rays meet in its place: a range of instances.
   uint32_t first_copy = 0, copies = 1;
   bool holdout = false;                      // InstanceDesc::holdout
+  bool catcher = false;                      // a shadow catcher that does not hold out
   EmitterLinks emitter{};                    // of what it emits
   LinkMask unlit_by = 0;                     // ReceiverLinks::unlit_by
   vec4 color = vec4(1.0f);                   // what Object Info says: the object's colour,

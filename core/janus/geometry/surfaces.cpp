@@ -24,8 +24,8 @@ void Surfaces::add_aovs(uint32_t surface, Program aovs) {
   shared_->programs.push_back(std::make_unique<const Program>(std::move(aovs)));
   ++shared_->aov_programs;
   surfaces_[surface].aovs = static_cast<uint32_t>(surfaces_.size());
-  surfaces_.push_back({shared_->programs.back().get(), nullptr, material_index(surface),
-                       material(surface), false});
+  surfaces_.push_back(
+      {shared_->programs.back().get(), nullptr, material_index(surface), material(surface), false});
 }
 
 uint32_t Surfaces::bind(uint32_t surface, const Shape& shape,

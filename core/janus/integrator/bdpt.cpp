@@ -242,7 +242,7 @@ class Bdpt final : public BidirectionalIntegrator {
     const float share = specular_walks_.share(index);
     AdaptiveCounts::Gauge meter = gauge(raster, moments);
     Sample sample{index};
-    const float alpha = trace_camera_subpath(
+    const ViewCoverage coverage = trace_camera_subpath(
         context_.scene(), context_.camera(), raster, mis_, settings_.walk, sampler, counters,
         [&](const LightFound& found) {
           const Rgb value = gather_light(found, found.specular ? share : 1.0f, sample, counters);
@@ -271,7 +271,8 @@ class Bdpt final : public BidirectionalIntegrator {
                               [&](const LightVertex& l, const CacheBlock& block, const Merge& m,
                                   const UnreadVertices& unread) {
                                 gather_merge(m, {l.edges + 1, v.edges}, sample, counters, [&] {
-                                  return SortedPath{block.states_of(l), states(v.trace), unread};
+                                  return SortedPath{block.states_of(l), states(v.trace), unread,
+                                                    v.caught};
                                 });
                               });
             }
@@ -280,7 +281,7 @@ class Bdpt final : public BidirectionalIntegrator {
     for (int i = 0; i < specular_walks_.count(index); ++i) {
       walk_specular(specular_walks_.first() + i, share, sample, counters);
     }
-    context_.film.add_sample(index, sample.sum, alpha);
+    add_sample(index, sample.sum, coverage);
     if (settings_.check_weights && index % kOracleStride == 0) {
       check(raster, index, pass);
     }

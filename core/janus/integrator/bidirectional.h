@@ -108,7 +108,7 @@ class BidirectionalIntegrator : public PassIntegrator {
     WeightedState light;
     gather(value, w, technique, sample, counters, [&] {
       light = light_state(nee->light);
-      return SortedPath{{&light, 1}, states(v.trace), unread};
+      return SortedPath{{&light, 1}, states(v.trace), unread, v.caught};
     });
     found = c.weight;
     return value;
@@ -140,7 +140,7 @@ class BidirectionalIntegrator : public PassIntegrator {
     const Rgb value =
         arriving(c->value * w, *c, edges, roulette, sampler, with_value, counters.connection_rays);
     gather(value, w, technique, sample, counters,
-           [&] { return SortedPath{block.states_of(l), states(v.trace), unread}; });
+           [&] { return SortedPath{block.states_of(l), states(v.trace), unread, v.caught}; });
     found = c->weight;
     return value;
   }
@@ -159,14 +159,19 @@ class BidirectionalIntegrator : public PassIntegrator {
     const Connection& c = s->connection;
     const Technique technique{v.edges + 1, 1};
     const float w = weight(c.weight, technique);
-    const Rgb value = arriving(c.value * w / light_paths, c, v.edges + 1, roulettes.at(s->raster),
-                               sampler, counters.splats, counters.splat_rays);
+    Rgb value = arriving(c.value * w / light_paths, c, v.edges + 1, roulettes.at(s->raster),
+                         sampler, counters.splats, counters.splat_rays);
     if (!usable(value, counters)) {
+      return;
+    }
+    const bool caught = settings_.walk.catchers && catch_segment(context_.scene(), c.from, c.to,
+                                                                 v.caught, settings_.walk, value);
+    if (is_black(value)) {
       return;
     }
     if (settings_.layers.any()) {
       splats_.add(block, s->raster, value, [&](auto&& add) {
-        const SortedPath path{states(v.trace), camera_state(), unread};
+        const SortedPath path{states(v.trace), camera_state(), unread, caught};
         settings_.layers.spread(value, w, technique, settings_.walk.expressions, path, add);
       });
     } else {

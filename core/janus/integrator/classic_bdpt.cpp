@@ -65,7 +65,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
     sampler.start_block(0);
     const vec2 raster = context_.film.sample_position(index, sampler.next_2d());
     Sample sample{index};
-    const float alpha = trace_camera_subpath(
+    const ViewCoverage coverage = trace_camera_subpath(
         context_.scene(), context_.camera(), raster, mis_, settings_.walk, sampler, counters,
         [&](const LightFound& found) { gather_light(found, 1.0f, sample, counters); },
         [&](const PathVertex& v, Sampler& walk) {
@@ -79,7 +79,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
             gather_connection(l, light_path, v, 1.0f, Roulette(), walk, sample, counters, weight);
           }
         });
-    context_.film.add_sample(index, sample.sum, alpha);
+    add_sample(index, sample.sum, coverage);
   }
 
   size_t light_paths_ = 0;       // of a pass: one per pixel

@@ -77,21 +77,20 @@ class LightTracer final : public PassIntegrator {
     if (!lens) {
       return;
     }
-    const Rgb value =
-        settings_.clamp(v.beta * lens->importance / static_cast<float>(count), v.edges + 1);
+    Rgb value = settings_.clamp(v.beta * lens->importance / static_cast<float>(count), v.edges + 1);
     if (usable(value, counters)) {
-      add_splat(lens->raster, value, {states(v.trace), camera_state(), {}});
+      const bool caught =
+          settings_.walk.catchers && catch_segment(context_.scene(), ray.origin, lens->position,
+                                                   v.caught, settings_.walk, value);
+      add_splat(lens->raster, value, {states(v.trace), camera_state(), {}, caught});
     }
   }
 
-  // Adds the parts of `value` to the layers of the expressions that its path matches.
+  // Adds the parts of `value` to the layers that its path belongs to.
   template <class Add>
   void sort(Rgb value, const SortedPath& path, Add&& add) const {
-    if (settings_.walk.expressions) {
-      for_each_match(*settings_.walk.expressions, path, [&](ExpressionMask which, Rgb share) {
-        add(LayerMask{which}, value * share);
-      });
-    }
+    // There are no images of strategies here: which it is does not matter.
+    settings_.layers.spread(value, 1.0f, {}, settings_.walk.expressions, path, add);
   }
 
   template <class AddSplat>
@@ -106,11 +105,12 @@ class LightTracer final : public PassIntegrator {
     }
     ++counters.splat_rays;
     const Connection& c = s->connection;
-    const Rgb value =
-        c.value * context_.scene().transmittance(c.from, c.to, c.type, crossings, c.camera);
+    Rgb value = c.value * context_.scene().transmittance(c.from, c.to, c.type, crossings, c.camera);
     if (!is_black(value)) {
+      const bool caught = settings_.walk.catchers && catch_segment(context_.scene(), c.from, c.to,
+                                                                   v.caught, settings_.walk, value);
       add_splat(s->raster, settings_.clamp(value / static_cast<float>(count), v.edges + 1),
-                {states(v.trace), camera_state(), unread});
+                {states(v.trace), camera_state(), unread, caught});
     }
   }
 
@@ -124,13 +124,13 @@ class LightTracer final : public PassIntegrator {
       sampler.start_block(0);
       const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
       Rgb sum(0.0f);
-      const float alpha = trace_camera_subpath(
+      const ViewCoverage coverage = trace_camera_subpath(
           context_.scene(), context_.camera(), raster, mis_, walk, sampler, counters,
           [&](const LightFound& found) {
             if (found.edges == 1) {
               const Rgb value = settings_.clamp(found.beta * found.hit.radiance, 1);
               sum += value;
-              if (settings_.walk.expressions && is_finite(value)) {
+              if (settings_.layers.any() && is_finite(value)) {
                 const WeightedState light = light_state(found.light);
                 const std::span<Rgb> layers = context_.film.layers_at(i);
                 sort(value, path_of_light(found, light), [&](LayerMask mask, Rgb part) {
@@ -140,7 +140,7 @@ class LightTracer final : public PassIntegrator {
             }
           },
           [&](const PathVertex& v, Sampler&) { see(v, i); });
-      context_.film.add_sample(i, usable(sum, counters) ? sum : Rgb(0.0f), alpha);
+      add_sample(i, usable(sum, counters) ? sum : Rgb(0.0f), coverage);
     });
   }
 };

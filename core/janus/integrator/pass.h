@@ -57,22 +57,32 @@ class PassIntegrator : public Integrator {
   // A path to a light that a camera walk has found; `light`: its state.
   SortedPath path_of_light(const LightFound& found, const WeightedState& light) const {
     if (!found.trace) {
-      return {};
+      return {{}, {}, {}, found.caught};
     }
     if (found.edges == 1) {
-      return {{&light, 1}, found.trace->states(), {}};
+      return {{&light, 1}, found.trace->states(), {}, found.caught};
     }
     UnreadVertex z_1 = found.trace->vertex();
     if (settings_.walk.ray_types) {
       z_1.shares = z_1.shares.lit(context_.scene().lights[found.light]->visibility);
     }
-    return {{&light, 1}, found.trace->before(), UnreadVertices(z_1)};
+    return {{&light, 1}, found.trace->before(), UnreadVertices(z_1), found.caught};
   }
 
   // Keeps the colours of what the camera sees in pixel `index`, if `v` is that.
   void see(const PathVertex& v, size_t index) {
     if (settings_.layers.colors && v.edges == 1) {
       settings_.layers.add_color(v.bsdf(), v.back, v.beta, context_.film.layers_at(index));
+    }
+  }
+
+  // The sample of a pixel is complete.
+  void add_sample(size_t index, Rgb value, const ViewCoverage& coverage) {
+    context_.film.add_sample(index, value, coverage.alpha);
+    if (settings_.layers.matte) {
+      ViewCoverage seen = coverage;
+      seen.behind = settings_.clamp(seen.behind, 1);
+      settings_.layers.add_coverage(seen, context_.film.layers_at(index));
     }
   }
 

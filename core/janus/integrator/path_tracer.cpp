@@ -21,9 +21,9 @@ class PathTracer final : public PassIntegrator {
       Sampler sampler = camera_sampler(i, wave.pass);
       sampler.start_block(0);
       const vec2 raster = context_.film.sample_position(i, sampler.next_2d());
-      float alpha = 1.0f;
-      const Rgb value = radiance(raster, sampler, counters, alpha, context_.film.layers_at(i));
-      context_.film.add_sample(i, usable(value, counters) ? value : Rgb(0.0f), alpha);
+      ViewCoverage seen;
+      const Rgb value = radiance(raster, sampler, counters, seen, context_.film.layers_at(i));
+      add_sample(i, usable(value, counters) ? value : Rgb(0.0f), seen);
     });
   }
 
@@ -57,6 +57,8 @@ class PathTracer final : public PassIntegrator {
     // Where it looks for lights with the rules of shadow rays: what lets them through so far.
     const ShadowsAhead* shadows = nullptr;
     CameraTrace* trace = nullptr;  // without light path expressions: none
+    std::span<Rgb> layers{};       // of the pixel
+    bool caught = false;           // the camera has seen a shadow catcher
   };
 
   // Light of source `index` found on the way.
@@ -86,10 +88,19 @@ class PathTracer final : public PassIntegrator {
             : lights.pmf_illumination(walk.previous, index, hit.primitive) * hit.pdf_illumination;
     const float w = pdf_nee > 0.0f ? weight(walk.pdf_solid, pdf_nee) : 1.0f;
     const Rgb value = settings_.clamp(beta * lit * hit.radiance * w, walk.edges);
-    if (walk.trace) {
+    if (walk.trace && !walk.caught) {
       walk.trace->found(index, value, walk.edges);
     }
+    sort(walk, value);
     return value;
+  }
+
+  // Shadow catchers have their light apart.
+  void sort(const Walk& walk, Rgb value) const {
+    const Layers& layers = settings_.layers;
+    if (layers.caught && (walk.caught || layers.matte) && is_finite(value)) {
+      walk.layers[layers.catching(walk.caught)] += value;
+    }
   }
 
   // Not in what the camera sees clearly?
@@ -107,14 +118,14 @@ class PathTracer final : public PassIntegrator {
   // The surface `hit` where it is seen clearly: the hole that it leaves in `beta`, and what it
   // still does. Empty: the path may go on.
   void hold_out(const SurfaceInteraction& hit, const Walk& walk, ShadingResult& shading,
-                float& alpha) const {
+                ViewCoverage& seen) const {
     if (context_.scene().instances[hit.instance].holdout) {
-      alpha -= average(walk.beta * (Rgb(1.0f) - shading.transparency));
+      leave_out(average(walk.beta * (Rgb(1.0f) - shading.transparency)), walk, seen);
       shading.emission = Rgb(0.0f);
       shading.bsdf.clear();
       return;
     }
-    alpha -= shading.holdout * average(walk.beta);
+    leave_out(shading.holdout * average(walk.beta), walk, seen);
     if (shading.holdout >= 1.0f) {
       shading.transparency = Rgb(0.0f);
       shading.bsdf.clear();
@@ -122,6 +133,11 @@ class PathTracer final : public PassIntegrator {
         shading.emission = Rgb(0.0f);
       }
     }
+  }
+
+  static void leave_out(float share, const Walk& walk, ViewCoverage& seen) {
+    seen.alpha -= share;
+    seen.matte -= walk.caught ? 0.0f : share;
   }
 
   // What a light may add of what diffuse lobes scatter, and of the rest.
@@ -186,7 +202,7 @@ class PathTracer final : public PassIntegrator {
     return sum;
   }
 
-  Rgb radiance(vec2 raster, Sampler& sampler, Counters& counters, float& alpha,
+  Rgb radiance(vec2 raster, Sampler& sampler, Counters& counters, ViewCoverage& coverage,
                std::span<Rgb> layers) const {
     const Scene& scene = context_.scene();
     ++counters.camera_paths;
@@ -196,6 +212,7 @@ class PathTracer final : public PassIntegrator {
     }
     const Ray& start = seen.ray;
     Walk walk{start, {start.origin, start.direction, true}, start.origin};
+    walk.layers = layers;
     std::optional<CameraTrace> trace;
     if (settings_.walk.expressions) {
       walk.trace = &trace.emplace(scene, settings_.walk, layers);
@@ -212,7 +229,7 @@ class PathTracer final : public PassIntegrator {
           Ray{walk.origin, walk.ray.direction, walk.ray.t_max - walk.t_begin}, walk.type);
       if (!hit) {
         if (walk.clear && settings_.walk.film_transparent) {
-          alpha -= average(walk.beta);
+          leave_out(average(walk.beta), walk, coverage);
         }
         return apart ? sum : sum + lamps(walk, std::nullopt);
       }
@@ -221,8 +238,14 @@ class PathTracer final : public PassIntegrator {
         sum += lamps(walk, t_end);
       }
       ShadingResult shading = scene.shade(*hit, wo);
+      if (settings_.walk.catchers && walk.edges == 1 && !walk.caught) {
+        walk.caught = catch_view(scene, *hit, walk.ray, settings_.walk, walk.beta, coverage);
+        if (is_black(walk.beta)) {
+          return sum;
+        }
+      }
       if (settings_.walk.holdouts && walk.clear) {
-        hold_out(*hit, walk, shading, alpha);
+        hold_out(*hit, walk, shading, coverage);
       }
       size_t index;
       if (const MeshLight* light = scene.mesh_light(*hit, index)) {
@@ -300,7 +323,9 @@ class PathTracer final : public PassIntegrator {
                   .rest = Rgb(1.0f) - diffuse,
                   .transmitted = sample->transmitted,
                   .clear = clear,
-                  .trace = walk.trace};
+                  .trace = walk.trace,
+                  .layers = walk.layers,
+                  .caught = walk.caught};
       if (walk.trace) {
         walk.trace->read({hit->instance, ScatterShares::sampled(*sample)}, walk.type, walk.edges,
                          sampler);
@@ -373,10 +398,11 @@ class PathTracer final : public PassIntegrator {
     const Rgb value = settings_.clamp(
         walk.beta * f * visible * sample->radiance * (weight(pdf_nee, pdf_hit) / pdf_nee),
         walk.edges + 1);
-    if (walk.trace) {
+    if (walk.trace && !walk.caught) {
       walk.trace->joined(choice.light, value,
                          {hit.instance, ScatterShares::joined(e, transmitted)});
     }
+    sort(walk, value);
     return value;
   }
 };

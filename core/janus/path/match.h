@@ -136,6 +136,7 @@ struct UnreadVertices {
 struct SortedPath {
   std::span<const WeightedState> light, camera;  // what both sides have read
   UnreadVertices unread;
+  bool caught = false;  // it belongs to a shadow catcher
 };
 
 // Calls f(expressions, share) for the parts of a path that belong to expressions.

@@ -59,6 +59,7 @@ struct PathRules {
   // out; and lobes of glass up to which squared GGX width are clear. Below 0: none is.
   bool holdouts = false, film_transparent = false;
   float clear_glass = -1.0f;
+  bool catchers = false;   // are there shadow catchers that the camera may see (path/catching.h)
   bool ray_types = false;  // Scene::has_ray_types: what is met depends on the labels
   // The light path expressions that paths are sorted by; null: none.
   const PathAutomaton* expressions = nullptr;

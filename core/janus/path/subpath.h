@@ -5,6 +5,7 @@
 #pragma once
 
 #include "janus/camera/camera.h"
+#include "janus/path/catching.h"
 #include "janus/path/clear_view.h"
 #include "janus/path/flight.h"
 
@@ -26,6 +27,7 @@ struct LightFound {
   LightEnd end;            // for edges > 1
   Departure previous;      // how z_1 was left
   const PathTrace* trace;  // of the camera's side; see PathVertex
+  bool caught;             // likewise
 };
 
 // State of a walk between two vertices.
@@ -199,6 +201,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   WalkStep step;
   for (;;) {
     v.held = settings.holdouts && holds_out(scene, v);
+    v.caught = settings.catchers && catches(scene, v.hit);
     on_vertex(v, sampler);
     if (v.edges + (kWatched ? 1 : 2) > (v.edges == 1 ? settings.max_edges : v.max_edges)) {
       return;
@@ -249,17 +252,18 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
 }
 
 // Traces one camera subpath through `raster`. Calls on_light(const LightFound&) for all light on
-// its segments and on_vertex(const PathVertex&, Sampler&) at z_{k-1}, z_{k-2}, ...; returns film
-// alpha: the share of the camera ray that did not end in a hole, or on a transparent film's
-// background. The sampler's block 0 belongs to the caller (film) and the lens.
+// its segments and on_vertex(const PathVertex&, Sampler&) at z_{k-1}, z_{k-2}, ...; returns what
+// of the camera's ray did not end in a hole, or on a transparent film's background. The sampler's
+// block 0 belongs to the caller (film) and the lens.
 template <class OnLight, class OnVertex>
-float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster, const Mis& mis,
-                           const WalkSettings& settings, Sampler& sampler, Counters& counters,
-                           OnLight&& on_light, OnVertex&& on_vertex) {
+ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster,
+                                  const Mis& mis, const WalkSettings& settings, Sampler& sampler,
+                                  Counters& counters, OnLight&& on_light, OnVertex&& on_vertex) {
   ++counters.camera_paths;
   const CameraRay start = camera.sample_ray(raster, sampler.next_2d());
+  ViewCoverage coverage;
   if (start.blind()) {
-    return 1.0f;
+    return coverage;
   }
   PathVertex v;
   v.beta = Rgb(1.0f);
@@ -271,7 +275,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
   }
   WalkStep step{start.ray, {false, start.density.value, 0.0f}, {}, v.beta, 0.0f};
   Receiver previous{start.lens, start.ray.direction, true};
-  float eta_scale = 1.0f, alpha = 1.0f;
+  float eta_scale = 1.0f;
   bool ended = false;  // at something that holds out
   bool specular = true;
   for (v.edges = 1;; ++v.edges) {
@@ -287,7 +291,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
       }
       if (v.edges == 1) {
         if (contains(light.visibility, RayType::Camera)) {
-          on_light(LightFound{index, hit, beta, 1, false, {}, {}, {}, v.trace});
+          on_light(LightFound{index, hit, beta, 1, false, {}, {}, {}, v.trace, v.caught});
         }
         return;
       }
@@ -310,15 +314,22 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
           mis.weight_hit(step.left.pdf_solid, step.left.delta, pdf_nee, joint, step.behind),
           {joint, pdf_nee, true, ray.direction},
           step.left,
-          v.trace});
+          v.trace,
+          v.caught});
     };
     const auto on_segment = [&](float t_begin, float t_end, bool surface) {
       if (!shadow_ray) {
         lamps_between(scene, ray, t_begin, t_end, surface,
                       [&](size_t lamp, const LightHit& hit) { found(lamp, hit, v.beta); });
       }
+      if (settings.catchers && surface && v.edges == 1 && !v.caught) {
+        v.caught = catch_view(scene, v.hit, ray, settings, v.beta, coverage);
+      }
       if (v.clear && (surface ? settings.holdouts : settings.film_transparent)) {
-        alpha -= surface ? hole(scene, v.hit, v.beta, ended, v.shading) : average(v.beta);
+        const float missing =
+            surface ? hole(scene, v.hit, v.beta, ended, v.shading) : average(v.beta);
+        coverage.alpha -= missing;
+        coverage.matte -= v.caught ? 0.0f : missing;
       }
       // What it emits all the same is in the paths through clear glass, in every technique.
       if (surface && !(ended && v.edges == 1) && !is_black(v.shading.emission)) {
@@ -339,10 +350,10 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     }
     if (!fly(scene, ray, type, TransportMode::Radiance, settings.max_crossings, sampler,
              counters.camera_rays, v, on_segment)) {
-      return alpha;
+      return coverage;
     }
-    if (ended) {
-      return alpha;
+    if (ended || (settings.catchers && is_black(v.beta))) {
+      return coverage;
     }
     v.back = -ray.direction;
     const float d2 = length2(v.hit.p - previous.p);
@@ -352,7 +363,7 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     // The last bounce is one only if the path goes on from here.
     if (v.edges + 1 > settings.max_edges || !settings.caps.allow(v.bounces) ||
         !usable_density(pdf_area)) {
-      return alpha;
+      return coverage;
     }
     v.mis = v.edges == 1
                 ? mis.begin_camera(pdf_area)
@@ -365,11 +376,11 @@ float trace_camera_subpath(const Scene& scene, const Camera& camera, vec2 raster
     on_vertex(v, sampler);
 
     if (!scatter(v, mis, sampler, TransportMode::Radiance, settings, 1.0f, eta_scale, step)) {
-      return alpha;
+      return coverage;
     }
     specular = specular && step.left.delta;
     if (settings.specular && !specular) {
-      return alpha;
+      return coverage;
     }
     if (settings.counts()) {
       v.bounces = v.bounces.with(step.label);

@@ -52,6 +52,9 @@ struct PathVertex {
   // Of clear views. Camera subpaths: the view to this vertex is clear. Light subpaths: a clear view
   // to this vertex and beyond does not show what lies beyond; it does not show the vertex.
   bool clear = true, hidden = false, held = false;
+  // If PathRules::catchers (path/catching.h). Camera subpaths: the path belongs to a shadow
+  // catcher. Light subpaths: it does if the camera sees this vertex.
+  bool caught = false;
   int max_edges;       // light subpaths: of the whole path, with this vertex no delta if it is z_1
   LightEnd light_end;  // light subpaths: their start
   CameraEnd camera_end;  // camera subpaths: theirs

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "janus/light/dark_light.h"
 #include "janus/render/camera_checks.h"
 #include "janus/render/lamp.h"
 #include "janus/render/onlookers.h"
@@ -20,6 +21,7 @@ using ProgramsByRay = std::array<uint32_t, std::size(kRays)>;
 // One commit: fills a Scene step by step, in the order in which the parts need each other.
 class Commit {
  public:
+  // `scene.whole`: of a scene of shadow catchers alone.
   Commit(Scene& scene, const CancelToken& cancel) : scene_(scene), cancel_(cancel) {}
 
   void add_materials(const std::map<std::string, MaterialDesc>& materials, const ImageMap& images) {
@@ -62,6 +64,9 @@ class Commit {
       if (shape == shape_index_.end()) {
         throw SceneError(key, "mesh", "there is no mesh '" + desc.mesh + "'");
       }
+      if (scene_.whole && !desc.shadow_catcher) {
+        continue;
+      }
       const std::string& name = desc.name.empty() ? key : desc.name;
       Instance instance;
       instance.name = name;
@@ -71,6 +76,7 @@ class Commit {
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;
       instance.holdout = desc.holdout;
+      instance.catcher = desc.shadow_catcher && !desc.holdout;
       instance.emitter = desc.emitter;
       instance.unlit_by = desc.receiver.unlit_by;
       if (!is_placement(desc.transform)) {
@@ -108,9 +114,13 @@ class Commit {
   void build_accel(const Scene* last) {
     scene_.accel = std::make_shared<const Accel>(scene_.shapes, scene_.instances, cancel_,
                                                  last ? last->accel.get() : nullptr);
+    scene_.surroundings = scene_.whole ? scene_.whole->surroundings : surroundings();
   }
 
   void add_mesh_lights() {
+    if (scene_.whole) {
+      add_dark_mesh_lights();
+    }
     for (size_t i = 0; i < scene_.instances.size(); ++i) {
       Instance& instance = scene_.instances[i];
       const bool emits =
@@ -137,23 +147,24 @@ class Commit {
 
   void add_lamps(const std::map<std::string, LightDesc>& lights, const ImageMap& images,
                  const CameraDesc& camera) {
-    const LampSurroundings around{view_of(camera), surroundings(),
+    const LampSurroundings around{view_of(camera), SceneBox(scene_.surroundings),
                                   [&](const LightDesc& lamp) { return surfaces_near(lamp); }};
     for (const auto& [key, desc] : lights) {
+      const bool shines = !scene_.whole || desc.lights_catchers;
       LightDesc lamp = desc;
       if (lamp.name.empty()) {
         lamp.name = key;
       }
       for (auto& light : make_lamp(std::move(lamp), images, around, scene_.diagnostics)) {
         light->light_group = desc.light_group;
-        add_light(std::move(light));
+        add_light(shines ? std::move(light) : std::make_unique<DarkLight>(std::move(light)));
       }
     }
   }
 
   void add_world(const WorldDesc& world, const ImageMap& images, const CameraDesc& camera) {
-    for (auto& light :
-         make_world(world, images, view_of(camera), surroundings(), scene_.diagnostics, cancel_)) {
+    for (auto& light : make_world(world, images, view_of(camera), SceneBox(scene_.surroundings),
+                                  scene_.diagnostics, cancel_)) {
       add_light(std::move(light));
     }
     if (contains(world.visibility, RayType::Camera)) {
@@ -181,6 +192,16 @@ class Commit {
   }
 
  private:
+  // Those of the whole scene that are not in this one.
+  void add_dark_mesh_lights() {
+    for (const Instance& instance : scene_.whole->instances) {
+      if (instance.light >= 0 && !instance.catcher) {
+        const auto& light = scene_.whole->lights[static_cast<size_t>(instance.light)];
+        scene_.lights.push_back(std::make_shared<const DarkLight>(light));
+      }
+    }
+  }
+
   void warn(const std::string& object, const std::string& message) {
     scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
   }
@@ -229,6 +250,7 @@ class Commit {
       instance.opaque = instance.opaque && !scene_.surfaces.program(program).has_transparency();
     }
     scene_.has_transparency = scene_.has_transparency || !instance.opaque;
+    scene_.has_clear_catchers |= instance.catcher && !instance.opaque;
     scene_.instances.push_back(std::move(instance));
   }
 
@@ -261,7 +283,7 @@ class Commit {
   }
 
   // Around all surfaces, at all times.
-  SceneBox surroundings() const {
+  Bounds surroundings() const {
     Bounds bounds = scene_.accel->bounds();
     for (const Instance& instance : scene_.instances) {
       const Shape& shape = *scene_.shapes[instance.shape];
@@ -269,7 +291,7 @@ class Commit {
         bounds.extend(swept(instance, shape));
       }
     }
-    return SceneBox(bounds);
+    return bounds;
   }
 
   // Where an instance is at one time or another.
@@ -357,27 +379,40 @@ std::shared_ptr<const Scene> SceneBuilder::commit(const CancelToken& cancel) con
     throw SceneError("camera", "", "the scene has no camera");
   }
   check_camera(*camera_);
-  auto scene = std::make_shared<Scene>();
-  scene->camera = *camera_;
-  Commit commit(*scene, cancel);
-  commit.add_materials(materials_, images_);
-  commit.add_shapes(shapes_);
-  commit.add_instances(instances_);
-  scene->place_objects();
   std::shared_ptr<const Scene> last;
   {
     const std::lock_guard lock(last_->mutex);
     last = last_->scene.lock();
   }
-  commit.build_accel(last.get());
+  const std::shared_ptr<Scene> scene = make(last.get(), nullptr, cancel);
+  const auto seen = [](const Instance& i) {
+    return i.catcher && contains(i.visibility, RayType::Camera);
+  };
+  if (std::ranges::any_of(scene->instances, seen)) {
+    scene->catchers_alone = make(scene.get(), scene.get(), cancel);
+  }
+  const std::lock_guard lock(last_->mutex);
+  last_->scene = scene;
+  return scene;
+}
+
+std::shared_ptr<Scene> SceneBuilder::make(const Scene* last, const Scene* whole,
+                                          const CancelToken& cancel) const {
+  auto scene = std::make_shared<Scene>();
+  scene->camera = *camera_;
+  scene->whole = whole;
+  Commit commit(*scene, cancel);
+  commit.add_materials(materials_, images_);
+  commit.add_shapes(shapes_);
+  commit.add_instances(instances_);
+  scene->place_objects();
+  commit.build_accel(last);
   commit.add_mesh_lights();
   commit.add_lamps(lights_, images_, *camera_);
   if (world_) {
     commit.add_world(*world_, images_, *camera_);
   }
   commit.finish();
-  const std::lock_guard lock(last_->mutex);
-  last_->scene = scene;
   return scene;
 }
 

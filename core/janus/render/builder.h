@@ -88,6 +88,11 @@ class SceneBuilder {
   std::shared_ptr<const Scene> commit(const CancelToken& cancel) const;
 
  private:
+  // A scene that shares what it can with `last`, if there is one; of the shadow catchers alone in
+  // the scene `whole`, if that is one.
+  std::shared_ptr<Scene> make(const Scene* last, const Scene* whole,
+                              const CancelToken& cancel) const;
+
   // Ordered maps: the scene, and so the image, does not depend on the order of the calls.
   // Copies of a builder share the shapes, its heaviest part.
   std::map<std::string, std::shared_ptr<ShapeItem>> shapes_;

@@ -43,6 +43,17 @@ Exposure::Exposure(std::shared_ptr<const Scene> scene, int width, int height, si
   }
 }
 
+Exposure::Exposure(const Exposure& whole)
+    : whole_(&whole),
+      timeless_(whole.timeless_->catchers_alone),
+      scene_(timeless_),
+      camera_(make_camera(scene_->camera, whole.width_, whole.height_)),
+      width_(whole.width_),
+      height_(whole.height_),
+      times_(whole.times_),
+      shift_(whole.shift_),
+      let_through_(whole.let_through_) {}
+
 // Van der Corput's sequence over passes, turned by the golden ratio from wave to wave.
 float Exposure::time(int pass, size_t wave) const {
   double u = shift_ + 0.6180339887498949 * static_cast<double>(wave);
@@ -68,7 +79,7 @@ void Exposure::open(int pass, size_t wave, const CancelToken& cancel) {
   if (times_ == 1) {
     return;
   }
-  scene_ = at_time(timeless_, time(pass, wave), cancel);
+  scene_ = at_time(timeless_, time(pass, wave), cancel, whole_ ? &whole_->scene() : nullptr);
   camera_ = make_camera(scene_->camera, width_, height_);
 }
 

@@ -18,6 +18,8 @@ class Exposure {
   // shutter's motion blur; otherwise everything is as it is in the scene.
   Exposure(std::shared_ptr<const Scene> scene, int width, int height, size_t pixels, bool blurs,
            uint32_t seed);
+  // Of the shadow catchers alone in what `whole` sees, at the same times: always opened after it.
+  explicit Exposure(const Exposure& whole);
 
   // At how many times a pass sees the scene: 1 where nothing moves.
   size_t times() const { return times_; }
@@ -39,6 +41,7 @@ class Exposure {
  private:
   float through_shutter(float u) const;
 
+  const Exposure* whole_ = nullptr;
   std::shared_ptr<const Scene> timeless_, scene_;
   std::unique_ptr<Camera> camera_;
   int width_, height_;

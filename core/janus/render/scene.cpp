@@ -68,4 +68,20 @@ Rgb Scene::transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings
   }
 }
 
+std::optional<vec3> Scene::find_passed_catcher(vec3 a, vec3 b) const {
+  const float length = glm::length(b - a);
+  const vec3 d = (b - a) / length;
+  const float rest = (1.0f - Accel::kShadowReach) * length;
+  Ray ray{a, d, length - rest};
+  SurfaceInteraction hit;
+  while (ray.t_max > 0.0f && accel->intersect_transparent(ray, RayType::Camera, hit)) {
+    if (instances[hit.instance].catcher) {
+      return offset_origin(hit.p, hit.ng, hit.offset, -d);
+    }
+    ray.origin = offset_origin(hit.p, hit.ng, hit.offset, d);
+    ray.t_max = dot(b - ray.origin, d) - rest;
+  }
+  return std::nullopt;
+}
+
 }  // namespace janus

@@ -66,6 +66,11 @@ class Scene {
     }
     return transmittance_through(a, b, type, max_crossings, camera);
   }
+  // The first shadow catcher that is passed on the open segment, which is clear to the camera, from
+  // there at `a` to `b`: a point before its surface.
+  std::optional<vec3> passed_catcher(vec3 a, vec3 b) const {
+    return has_clear_catchers ? find_passed_catcher(a, b) : std::nullopt;
+  }
   ShadingResult shade(const SurfaceInteraction& hit, vec3 view) const {
     ShadingResult result;
     shade(hit, view, result);
@@ -97,12 +102,14 @@ class Scene {
   std::vector<size_t> lamps;  // those that rays meet without a surface; the world last
   LampIndex lamp_index;
   LightSampler light_sampler;
-  bool has_transparency = false;  // of some surface
-  RayMask shadow_types = 0;       // shadow rays of the lights
-  bool has_own_shadows = false;   // some are not RayType::Shadow
-  bool has_links = false;         // some light does not shine on everything
-  bool has_ray_types = false;     // that, or some object or light is not visible to all rays
-  bool has_holdouts = false;      // of some object or surface
+  bool has_transparency = false;    // of some surface
+  RayMask shadow_types = 0;         // shadow rays of the lights
+  bool has_own_shadows = false;     // some are not RayType::Shadow
+  bool has_links = false;           // some light does not shine on everything
+  bool has_ray_types = false;       // that, or some object or light is not visible to all rays
+  bool has_holdouts = false;        // of some object or surface
+  bool has_clear_catchers = false;  // shadow catchers that are transparent in places
+  Bounds surroundings;              // of all surfaces, at all times
   CameraDesc camera;
   Diagnostics diagnostics;
   // Names of AOVs, by the numbers that programs write.
@@ -111,8 +118,14 @@ class Scene {
   std::shared_ptr<const Program> world_aovs;
   // Of a scene at a time of the shutter: the one that it was made of, with which it shares much.
   std::shared_ptr<const Scene> timeless;
+  // Where the camera may see shadow catchers: the scene as the footage shows it, with them and
+  // their lights alone. Null: there are none.
+  std::shared_ptr<const Scene> catchers_alone;
+  // Of such a scene: that of which it is a part, at the same time. It outlives the use of this one.
+  const Scene* whole = nullptr;
 
  private:
+  std::optional<vec3> find_passed_catcher(vec3 a, vec3 b) const;
   Rgb transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings, End camera) const;
 };
 

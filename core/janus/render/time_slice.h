@@ -21,8 +21,8 @@ bool moves(const Scene& scene);
 size_t slice_work(const Scene& scene);
 
 // The scene at `time`, from 0 (the shutter opens) to 1 (it closes). Shares what stands still, and
-// numbers instances, surfaces and lights alike. Throws Cancelled.
+// numbers instances, surfaces and lights alike. `whole`: Scene::whole. Throws Cancelled.
 std::shared_ptr<const Scene> at_time(const std::shared_ptr<const Scene>& scene, float time,
-                                     const CancelToken& cancel);
+                                     const CancelToken& cancel, const Scene* whole = nullptr);
 
 }  // namespace janus

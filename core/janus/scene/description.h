@@ -72,6 +72,9 @@ struct InstanceDesc {
   std::vector<std::optional<std::string>> materials;  // keys by slot; nullopt: default surface
   RayMask visibility = kAllRays;                      // the rays that meet it
   bool holdout = false;  // leaves a hole in the picture where the camera sees it
+  // Part of the footage that the picture is laid over, which shows only what is done to its light.
+  // Of those that hold out, only with regard to other shadow catchers.
+  bool shadow_catcher = false;
   // What the Object Info node says.
   vec4 color = vec4(1.0f);
   float object_index = 0.0f;  // the pass index
@@ -126,6 +129,8 @@ struct LightDesc {
   std::optional<NodeGraph> graph;  // the light's own node tree
   std::string light_group{};       // empty: none
   EmitterLinks links{};
+  bool lights_catchers =
+      true;  // false: it is no part of the footage (InstanceDesc::shadow_catcher)
 };
 
 struct WorldDesc {

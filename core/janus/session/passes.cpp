@@ -76,6 +76,7 @@ RenderPasses::RenderPasses(const RenderSettings& settings, const Scene& scene) {
                                   "', but no object, light or light group is called that"});
     }
   }
+  layers_.caught = layers_.matte = scene.catchers_alone != nullptr;
   layers_.longest = settings.strategy_images;
   if (layers_.longest > 0) {
     add_strategies();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "janus/session/footage.h"
 #include "janus/util/error.h"
 #include "janus/util/memory.h"
 
@@ -19,21 +20,6 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-std::unique_ptr<Integrator> make_integrator(const RenderSettings& choice,
-                                            const RenderContext& context,
-                                            const IntegratorSettings& settings) {
-  switch (choice.integrator) {
-    case IntegratorType::PathTracer:
-      return make_path_tracer(context, settings);
-    case IntegratorType::LightTracer:
-      return make_light_tracer(context, settings);
-    case IntegratorType::Bdpt:
-      break;
-  }
-  return choice.connection_mode == ConnectionMode::Classic ? make_classic_bdpt(context, settings)
-                                                           : make_bdpt(context, settings);
-}
-
 }  // namespace
 
 RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings settings)
@@ -46,6 +32,10 @@ RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings 
   check_lights();
   film_.emplace(settings_.rect(), Filter(settings_.filter, settings_.filter_width),
                 passes_.layers().count(), settings_.adaptive());
+  if (scene_->catchers_alone) {
+    catcher_film_.emplace(settings_.rect(), film_->filter(), layers_of_catchers().count(),
+                          settings_.adaptive());
+  }
   if (settings_.data.any()) {
     data_film_.emplace(settings_.rect(), settings_.data);
   }
@@ -56,6 +46,9 @@ void RenderSession::check_memory() const {
   const size_t most = physical_memory();
   const size_t needed =
       Film::bytes(settings_.rect(), passes_.layers().count(), settings_.adaptive()) +
+      (scene_->catchers_alone
+           ? Film::bytes(settings_.rect(), layers_of_catchers().count(), settings_.adaptive())
+           : 0) +
       DataFilm::bytes(settings_.rect(), settings_.data);
   if (most > 0 && needed > most / 10 * 9) {
     const auto gigabytes = [](size_t bytes) { return std::to_string((bytes >> 30) + 1) + " GB"; };
@@ -140,50 +133,83 @@ void RenderSession::start() {
   });
 }
 
+std::unique_ptr<Integrator> RenderSession::make_integrator(
+    const RenderContext& context, const IntegratorSettings& settings) const {
+  switch (settings_.integrator) {
+    case IntegratorType::PathTracer:
+      return make_path_tracer(context, settings);
+    case IntegratorType::LightTracer:
+      return make_light_tracer(context, settings);
+    case IntegratorType::Bdpt:
+      break;
+  }
+  return settings_.connection_mode == ConnectionMode::Classic ? make_classic_bdpt(context, settings)
+                                                              : make_bdpt(context, settings);
+}
+
+IntegratorSettings RenderSession::integrator_settings(const Scene& scene,
+                                                      const Layers& layers) const {
+  IntegratorSettings result;
+  // Cycles counts bounces between the first surface and the light: 0 leaves camera, surface, light.
+  result.walk.max_edges = settings_.max_bounces + 2;
+  result.walk.max_crossings = settings_.transparent_max_bounces;
+  result.walk.caps = BounceCaps(settings_.max_diffuse_bounces, settings_.max_glossy_bounces,
+                                settings_.max_transmission_bounces);
+  result.clamp = Clamp(settings_.clamp_direct, settings_.clamp_indirect);
+  result.walk.ray_types = scene.has_ray_types;
+  result.walk.holdouts = scene.has_holdouts;
+  result.walk.catchers = layers.caught;
+  result.walk.film_transparent = settings_.film_transparent;
+  if (settings_.film_transparent && settings_.film_transparent_glass) {
+    // A lobe's width is the square of a node's roughness; squares compare as Cycles does.
+    result.walk.clear_glass = sqr(sqr(settings_.film_transparent_roughness));
+  }
+  result.walk.roulette = settings_.roulette;
+  result.contribution_roulette = settings_.roulette;
+  result.walk.expressions = layers.expressions > 0 ? passes_.automaton() : nullptr;
+  result.layers = layers;
+  result.strategies = settings_.strategies;
+  result.next_event = settings_.next_event;
+  result.heuristic = settings_.heuristic;
+  result.light_paths = settings_.light_paths;
+  result.connections = settings_.connections;
+  result.merge_radius = settings_.merge_radius;
+  result.adaptive_counts = settings_.adaptive_counts;
+  result.seed = settings_.seed;
+  result.cache_bytes = settings_.cache_bytes;
+  result.check_weights = settings_.check_weights;
+  return result;
+}
+
 void RenderSession::run() {
   ThreadPool pool(settings_.threads);
   Exposure exposure(scene_, settings_.width, settings_.height, settings_.rect().pixels(),
                     settings_.motion_blur, settings_.seed);
-  IntegratorSettings integrator_settings;
-  // Cycles counts bounces between the first surface and the light: 0 leaves camera, surface, light.
-  integrator_settings.walk.max_edges = settings_.max_bounces + 2;
-  integrator_settings.walk.max_crossings = settings_.transparent_max_bounces;
-  integrator_settings.walk.caps =
-      BounceCaps(settings_.max_diffuse_bounces, settings_.max_glossy_bounces,
-                 settings_.max_transmission_bounces);
-  integrator_settings.clamp = Clamp(settings_.clamp_direct, settings_.clamp_indirect);
-  integrator_settings.walk.ray_types = scene_->has_ray_types;
-  integrator_settings.walk.holdouts = scene_->has_holdouts;
-  integrator_settings.walk.film_transparent = settings_.film_transparent;
-  if (settings_.film_transparent && settings_.film_transparent_glass) {
-    // A lobe's width is the square of a node's roughness; squares compare as Cycles does.
-    integrator_settings.walk.clear_glass = sqr(sqr(settings_.film_transparent_roughness));
-  }
-  integrator_settings.walk.roulette = settings_.roulette;
-  integrator_settings.contribution_roulette = settings_.roulette;
-  integrator_settings.walk.expressions = passes_.automaton();
-  integrator_settings.layers = passes_.layers();
-  integrator_settings.strategies = settings_.strategies;
-  integrator_settings.next_event = settings_.next_event;
-  integrator_settings.heuristic = settings_.heuristic;
-  integrator_settings.light_paths = settings_.light_paths;
-  integrator_settings.connections = settings_.connections;
-  integrator_settings.merge_radius = settings_.merge_radius;
-  integrator_settings.adaptive_counts = settings_.adaptive_counts;
-  integrator_settings.seed = settings_.seed;
-  integrator_settings.cache_bytes = settings_.cache_bytes;
-  integrator_settings.check_weights = settings_.check_weights;
   const RenderContext context{exposure, *film_, pool, cancel_};
-  const auto integrator = make_integrator(settings_, context, integrator_settings);
-  const auto data = data_film_ ? make_data_passes(context, integrator_settings,
-                                                  settings_.data_settings, *data_film_)
-                               : nullptr;
+  const IntegratorSettings how = integrator_settings(*scene_, passes_.layers());
+  const auto integrator = make_integrator(context, how);
+  const auto data =
+      data_film_ ? make_data_passes(context, how, settings_.data_settings, *data_film_) : nullptr;
+  // Shadow catchers alone, with the same samples: where nothing changes their light, it is the
+  // same.
+  std::optional<Exposure> footage;
+  std::unique_ptr<Integrator> footage_integrator;
+  if (catcher_film_) {
+    footage.emplace(exposure);
+    footage_integrator =
+        make_integrator(RenderContext{*footage, *catcher_film_, pool, cancel_},
+                        integrator_settings(*scene_->catchers_alone, layers_of_catchers()));
+  }
 
   for (int pass = 0; pass < settings_.samples; ++pass) {
     cancel_.throw_if_cancelled();
     // Only this thread and its pool write a pass, and nobody reads one that has not ended.
     film_->begin_pass();
     integrator->begin_pass(pass);
+    if (footage) {
+      catcher_film_->begin_pass();
+      footage_integrator->begin_pass(pass);
+    }
     for (size_t i = 0; i < exposure.times(); ++i) {
       exposure.open(pass, i, cancel_);
       const Wave wave{pass, i, exposure.times()};
@@ -191,13 +217,24 @@ void RenderSession::run() {
       if (data) {
         data->render_wave(wave);
       }
+      if (footage) {
+        footage->open(pass, i, cancel_);
+        footage_integrator->render_wave(wave);
+      }
     }
     integrator->end_pass();
+    if (footage) {
+      footage_integrator->end_pass();
+    }
     const std::lock_guard lock(mutex_);
     film_->end_pass(pool);
     statistics_.samples = pass + 1;
     statistics_.seconds = now() - start_time_;
     statistics_.counters = integrator->counters();
+    if (footage) {
+      catcher_film_->end_pass(pool);
+      statistics_.counters += footage_integrator->counters();
+    }
     statistics_.weight_error = integrator->weight_error();
     statistics_.cache_bytes = integrator->cache_bytes();
     statistics_.effort = integrator->effort();
@@ -210,6 +247,9 @@ void RenderSession::run() {
         (pass + 1) % kAdaptiveStep == 0) {
       film_->stop_converged(kThresholdScale * settings_.noise_threshold, settings_.film_exposure,
                             pool);
+      if (footage) {
+        catcher_film_->stop_with(*film_);
+      }
       if (film_->active_pixels() == 0) {
         break;
       }
@@ -261,6 +301,10 @@ Statistics RenderSession::statistics() const {
 
 Image RenderSession::snapshot() const {
   const std::lock_guard lock(mutex_);
+  if (catcher_film_) {
+    return lay_over_footage({*film_, *catcher_film_, passes_.layers()}, !settings_.film_transparent,
+                            settings_.shadow_catcher, settings_.film_exposure);
+  }
   return film_->develop(settings_.film_exposure);
 }
 
@@ -268,6 +312,9 @@ std::vector<std::string> RenderSession::passes() const {
   std::vector<std::string> names{"Combined"};
   for (const RenderPasses::Pass& pass : passes_.all()) {
     names.push_back(pass.name);
+  }
+  if (settings_.shadow_catcher) {
+    names.emplace_back(kShadowCatcher);
   }
   for (const std::string& name : settings_.data.names()) {
     names.push_back(name);
@@ -282,6 +329,15 @@ Image RenderSession::snapshot(const std::string& name) const {
   if (const auto data = settings_.data.names(); std::ranges::find(data, name) != data.end()) {
     return data_film_->develop(name);
   }
+  if (settings_.shadow_catcher && name == kShadowCatcher) {
+    const std::lock_guard lock(mutex_);
+    if (catcher_film_) {
+      return shadows_on_footage({*film_, *catcher_film_, passes_.layers()});
+    }
+    Image untouched(film_->rect().width(), film_->rect().height(), 3);
+    std::ranges::fill(untouched.pixels, 1.0f);
+    return untouched;
+  }
   const auto pass = std::ranges::find(passes_.all(), name, &RenderPasses::Pass::name);
   if (pass == passes_.all().end()) {
     throw Error("there is no pass '" + name + "'");
@@ -290,6 +346,12 @@ Image RenderSession::snapshot(const std::string& name) const {
   // Colours of surfaces are no light.
   const float exposure = passes_.layers().is_color(pass->layer) ? 1.0f : settings_.film_exposure;
   Image image = film_->develop_layer(pass->layer, exposure);
+  if (catcher_film_ && name == "Env") {  // as in Cycles: footage is laid over it, too
+    const Image behind = film_->develop_layer(passes_.layers().behind(), exposure);
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+      image.pixels[i] += behind.pixels[i];
+    }
+  }
   if (pass->color) {
     const Image color = film_->develop_layer(*pass->color);
     for (size_t i = 0; i < image.pixels.size(); ++i) {

@@ -76,6 +76,9 @@ class RenderSession {
   void check_strategies();
   void check_lights();
   void run();
+  IntegratorSettings integrator_settings(const Scene& scene, const Layers& layers) const;
+  std::unique_ptr<Integrator> make_integrator(const RenderContext& context,
+                                              const IntegratorSettings& settings) const;
   void end(Progress::State state, std::exception_ptr error);
 
   std::shared_ptr<const Scene> scene_;
@@ -88,6 +91,7 @@ class RenderSession {
   mutable std::mutex mutex_;  // guards all below
   std::condition_variable ended_;
   std::optional<Film> film_;
+  std::optional<Film> catcher_film_;   // of Scene::catchers_alone
   std::optional<DataFilm> data_film_;  // guards itself
   Progress::State state_ = Progress::State::Waiting;
   std::exception_ptr error_;

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "janus/session/footage.h"
 #include "janus/session/passes.h"
 #include "janus/util/error.h"
 
@@ -76,6 +77,9 @@ void RenderSettings::validate() const {
   std::set<std::string> names{"Combined"};
   for (const std::string& name : data.names()) {
     require(names.insert(name).second, "aovs", "two of them have the same name");
+  }
+  if (shadow_catcher) {
+    names.insert(kShadowCatcher);
   }
   for (const std::string& name : light_passes) {
     if (!is_light_pass(name)) {

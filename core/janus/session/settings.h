@@ -54,7 +54,9 @@ struct RenderSettings {
   std::vector<ExpressionPass> expressions;  // at most PathAutomaton::kMostExpressions
   std::vector<std::string> light_passes;    // Cycles' passes of light, by names in light_passes()
   int strategy_images = 0;                  // bdpt: Layers::longest
-  DataChoice data;                          // passes of what the camera sees
+  // The pass "Shadow Catcher". The picture is then without what it shows.
+  bool shadow_catcher = false;
+  DataChoice data;  // passes of what the camera sees
   DataSettings data_settings;
   bool motion_blur = true;     // of what moves in the scene
   float film_exposure = 1.0f;  // a factor of the finished picture's colour

@@ -207,6 +207,7 @@ class SceneBuilder:
         blocker_set: int = -1,
         unlit_by: Sequence[int] = (),
         lets_pass: Sequence[int] = (),
+        shadow_catcher: bool = False,
     ) -> None:
         """Places the mesh with the key `mesh` in the world.
 
@@ -218,7 +219,8 @@ class SceneBuilder:
         Light linking: receiver_set and blocker_set are numbers of the sets of lights that it is in
         as a light, below 63 and below 24, which shine on some things only, and which only some
         block (-1: none); unlit_by and lets_pass are the sets that do not shine on it, and that it
-        is not in the way of.
+        is not in the way of. shadow_catcher: it is part of the footage that the picture is laid
+        over, which shows only what is done to its light.
         """
     def set_light(
         self,
@@ -251,6 +253,7 @@ class SceneBuilder:
         light_group: str = "",
         receiver_set: int = -1,
         blocker_set: int = -1,
+        lights_catchers: bool = True,
     ) -> None:
         """A light object, which shines along its -z.
 

@@ -48,6 +48,7 @@ class RenderSettings:
         expressions: Sequence[tuple[str, str]] = ...,
         light_passes: Sequence[str] = ...,
         strategy_images: int = 0,
+        shadow_catcher: bool = False,
         data_passes: Sequence[str] = ...,
         cryptomatte: Sequence[Literal["Object", "Material", "Asset"]] = ...,
         cryptomatte_levels: int = 3,
@@ -193,6 +194,9 @@ class RenderSettings:
     @property
     def mist(self) -> tuple[float, float, float]:
         """Start and depth in metres, and the power of the falloff."""
+    @property
+    def shadow_catcher(self) -> bool:
+        """Is there a pass of what shadow catchers show? It is not in the picture then."""
     @property
     def strategy_images(self) -> int:
         """bdpt: each strategy of paths of up to so many edges has passes; 0: none."""

@@ -11,6 +11,7 @@ class Counts(TypedDict):
     lights: int
     materials: int
     meshes_built: int
+    shadow_catchers: int
 
 class Progress(TypedDict):
     samples: int

@@ -24,7 +24,7 @@ from . import Error, IoError, RenderSettings, Scene, SceneBuilder, __version__
 __all__ = ["CapturingBuilder", "load"]
 
 FORMAT = "janus scene"
-VERSION = 9  # raised when an older reader could not understand a newer file
+VERSION = 10  # raised when an older reader could not understand a newer file
 
 _KINDS = (
     "mesh",

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from mistakes.catchers import CATCHERS
 from mistakes.clear_views import CLEAR
 from mistakes.data import DATA_AND_COMMITS
 from mistakes.densities import DENSITIES
@@ -16,4 +17,4 @@ from mistakes.values import VALUES
 from mistakes.views import VIEWS
 
 MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES + SPECULAR_WALKS
-MISTAKES += LECTURE_MADE_VISIBLE + DATA_AND_COMMITS + MOTION_AND_LINKING
+MISTAKES += LECTURE_MADE_VISIBLE + DATA_AND_COMMITS + MOTION_AND_LINKING + CATCHERS

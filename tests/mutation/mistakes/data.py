@@ -90,7 +90,7 @@ DATA_AND_COMMITS = (
         "a scene shares no hierarchies with the one before",
         COMMITS,
         "core/janus/render/builder.cpp",
-        "commit.build_accel(last.get());",
+        "commit.build_accel(last);",
         "commit.build_accel(nullptr);",
     ),
 )
