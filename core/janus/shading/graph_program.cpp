@@ -14,11 +14,12 @@ namespace janus {
 void GraphCompiler::closure(const NodeReader& reader, Value share) {
   require(reader.node(), 0);
   ClosureStep step{reader.decl().closure, share, {}, 0, false, share};
-  if (!reader.decl().settings.empty()) {
-    const EnumDecl& setting = reader.decl().settings.front();
-    const auto chosen =
-        std::ranges::find(setting.items, reader.property(setting.property, setting.items.front()));
-    step.variant = static_cast<uint8_t>(chosen - setting.items.begin());
+  for (const EnumDecl& setting : reader.decl().settings) {  // each says what it does not have
+    const std::string name = reader.property(setting.property, setting.items.front());
+    if (&setting == &reader.decl().settings.front()) {
+      const auto chosen = std::ranges::find(setting.items, name);
+      step.variant = static_cast<uint8_t>(chosen - setting.items.begin());
+    }
   }
   for (const SocketDecl& socket : reader.decl().inputs) {
     if (socket.implicit == Implicit::Normal) {

@@ -330,7 +330,7 @@ class SceneBuilder:
     def set_mesh_motion(
         self, key: str, *, positions: npt.ArrayLike, normals: npt.ArrayLike | None = None
     ) -> None:
-        """How a mesh, or curves or points, that has been set changes its form while the shutter is open.
+        """How a mesh, curves or points that have been set change while the shutter is open.
 
         positions: float[K, N, 3] at K even times from opening to closing. normals: float[K, N or C,
         3], of vertices or corners, whichever it has; None: it has none.

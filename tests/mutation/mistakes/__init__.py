@@ -7,6 +7,7 @@ from mistakes.catchers import CATCHERS
 from mistakes.clear_views import CLEAR
 from mistakes.data import DATA_AND_COMMITS
 from mistakes.densities import DENSITIES
+from mistakes.fibers import FIBERS
 from mistakes.film import FILM_AND_SAMPLES
 from mistakes.lecture import LECTURE_MADE_VISIBLE
 from mistakes.merges import MERGES
@@ -17,4 +18,4 @@ from mistakes.values import VALUES
 from mistakes.views import VIEWS
 
 MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES + SPECULAR_WALKS
-MISTAKES += LECTURE_MADE_VISIBLE + DATA_AND_COMMITS + MOTION_AND_LINKING + CATCHERS
+MISTAKES += LECTURE_MADE_VISIBLE + DATA_AND_COMMITS + MOTION_AND_LINKING + CATCHERS + FIBERS

@@ -81,8 +81,8 @@ DATA_AND_COMMITS = (
         "a mesh that is set again stays the old one",
         COMMITS,
         "core/janus/render/builder.h",
-        "meshes_[key] = std::make_shared<MeshItem>(std::move(desc));",
-        "meshes_.try_emplace(key, std::make_shared<MeshItem>(std::move(desc)));",
+        "MeshDesc desc) {\n    shapes_[key] = std::make_shared<ShapeItem>(std::move(desc));",
+        "MeshDesc desc) {\n    shapes_.try_emplace(key, std::make_shared<ShapeItem>(std::move(desc)));",
     ),
     one(
         "hierarchies-built-again",

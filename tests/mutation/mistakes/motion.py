@@ -62,7 +62,7 @@ MOTION_AND_LINKING = (
         "light from far away misses what moves out of the scene's box",
         MOTION,
         "core/janus/render/builder.cpp",
-        "bounds.extend(swept(instance, mesh));",
+        "bounds.extend(swept(instance, shape));",
         "bounds.extend(bounds);",
     ),
     one(
@@ -80,8 +80,8 @@ MOTION_AND_LINKING = (
         "a light path goes on from what its light does not shine on",
         LINKING,
         "core/janus/path/subpath.h",
-        "if (!receiver.lit_by(light)) {",
-        "if (false && !receiver.lit_by(light)) {",
+        "if (!receiver.lit_by(light) || ",
+        "if (",
     ),
     one(
         "dark-lights-in-the-tree",
