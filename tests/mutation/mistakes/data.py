@@ -82,7 +82,7 @@ DATA_AND_COMMITS = (
         COMMITS,
         "core/janus/render/builder.h",
         "MeshDesc desc) {\n    shapes_[key] = std::make_shared<ShapeItem>(std::move(desc));",
-        "MeshDesc desc) {\n    shapes_.try_emplace(key, std::make_shared<ShapeItem>(std::move(desc)));",
+        "MeshDesc desc) {\n    shapes_.try_emplace(key, std::make_shared<ShapeItem>(desc));",
     ),
     one(
         "hierarchies-built-again",
