@@ -4,7 +4,7 @@ count on shadow rays as often as they are cut into pieces, where light comes thr
 
 from __future__ import annotations
 
-SEEDS, SAMPLES = 6, 192
+SEEDS = 6
 BOUNCES = 4
 
 # By case: the type of the closure's node, what it is set to, its inputs.
@@ -46,13 +46,18 @@ SHAPES = ("poly", "particles", "points", "points_glass", "moving", "info", "alph
 CASES = (*CLOSURES, *SHAPES)
 
 
+def samples(case: str) -> int:
+    """Per pixel."""
+    return 384 if case in ("glass", "points_glass", "chiang_melanin", "chiang_color") else 192
+
+
 def build(case: str):
     import bpy
 
     from scenes import kit
 
     scene = bpy.context.scene
-    kit.neutral_settings(scene, 32, 24, SAMPLES)
+    kit.neutral_settings(scene, 32, 24, samples(case))
     kit.limit_bounces(scene.cycles, BOUNCES)
     kit.world(scene, (0.4, 0.5, 0.7), 0.4)
     floor = kit.box(scene, "Floor", (8, 8, 0.2), kit.diffuse("Floor", (0.5, 0.5, 0.5)))
