@@ -152,7 +152,7 @@ def _particles(scene, material):
     settings = ball.particle_systems[0].settings
     settings.type, settings.count, settings.hair_length = "HAIR", 60, 0.5
     settings.child_type, settings.rendered_child_count = "SIMPLE", 4
-    settings.root_radius, settings.tip_radius, settings.radius_scale = 1.0, 0.3, 0.05
+    settings.root_radius, settings.tip_radius, settings.radius_scale = 1.0, 0.3, 0.02
     settings.shape, settings.use_close_tip = 0.3, True
     bpy.context.view_layer.update()
 
