@@ -2,6 +2,8 @@
 """Hair curves, particle hair and point clouds, as arrays of SceneBuilder.set_curves and
 set_points."""
 
+from itertools import chain
+
 import bpy
 import numpy as np
 
@@ -193,13 +195,10 @@ class _System:
 
     def positions(self, obj) -> np.ndarray:
         read, steps = self.system.co_hair, range(self.steps)
-        world = np.array(
-            [
-                read(obj, particle_no=number, step=step)
-                for number in self.numbers()
-                for step in steps
-            ]
-        )
+        keys = (read(obj, particle_no=n, step=step) for n in self.numbers() for step in steps)
+        # Twenty times as fast as an array of vectors.
+        numbers = np.fromiter(chain.from_iterable(keys), np.float64, 3 * self.count * self.steps)
+        world = numbers.reshape(-1, 3)
         to_object = np.array(obj.matrix_world.inverted_safe(), dtype=np.float64)
         return (world @ to_object[:3, :3].T + to_object[:3, 3]).astype(np.float32)
 
