@@ -26,7 +26,11 @@ def sync_world(builder, depsgraph, images, log, aovs: dict[str, str]) -> None:
     else:
         graph = background_graph(world.color)
     if getattr(getattr(world, "cycles", None), "max_bounces", 1024) < 1024:
-        log.warning("the world's own limit of bounces is not supported yet", object=world.name)
+        log.info(
+            "the world's own limit of bounces is left out: in Cycles, too, light from the world "
+            "that bounces more often is found where rays leave the scene",
+            object=world.name,
+        )
     builder.set_world(
         name=world.name,
         graph=graph,
