@@ -13,6 +13,17 @@ namespace janus {
 
 // Object-to-world placement of a shape.
 struct Instance {
+  // Of the object (InstanceDesc); many instances have the same.
+  struct Names {
+    std::string name, light_group, asset;
+
+    auto operator<=>(const Names&) const = default;
+  };
+  static std::shared_ptr<const Names> nameless() {
+    static const auto none = std::make_shared<const Names>();
+    return none;
+  }
+
   uint32_t shape = 0;
   mat4 to_world = mat4(1.0f);
   mat3 normal_to_world = mat3(1.0f);     // inverse transpose
@@ -29,7 +40,7 @@ struct Instance {
   LinkMask unlit_by = 0;                     // ReceiverLinks::unlit_by
   vec4 color = vec4(1.0f);                   // what Object Info says: the object's colour,
   float object_index = 0.0f, random = 0.0f;  // its pass index, a number of its own in [0, 1]
-  std::string name, light_group, asset;      // of the object (InstanceDesc)
+  std::shared_ptr<const Names> names = nameless();
 
   uint32_t material(uint32_t slot) const {
     // Cycles uses the last slot for an index beyond the list.

@@ -79,12 +79,13 @@ void Surfaces::set_objects(const ShapeList& shapes, const std::vector<Instance>&
   }
   objects_.clear();
   shapes_.clear();
+  const auto view = std::make_shared<const CameraView>(camera);
   for (const Instance& instance : instances) {
     ObjectData data;
     data.to_world = instance.to_world;
     data.to_object = glm::inverse(instance.to_world);
     data.normal_to_world = instance.normal_to_world;
-    data.camera = camera;
+    data.camera = view;
     data.location = vec3(instance.to_world[3]);
     data.color = instance.color;
     data.object_index = instance.object_index;

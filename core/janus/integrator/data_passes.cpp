@@ -36,8 +36,9 @@ class DataPasses final : public PassIntegrator {
       material_ids_.push_back(id_of(name));
     }
     for (const Instance& instance : context.scene().instances) {
-      object_ids_.push_back(id_of(instance.name));
-      asset_ids_.push_back(id_of(instance.asset.empty() ? instance.name : instance.asset));
+      object_ids_.push_back(id_of(instance.names->name));
+      asset_ids_.push_back(
+          id_of(instance.names->asset.empty() ? instance.names->name : instance.names->asset));
     }
     if (choice_.wants(DataPass::Vector) && moves(*context.exposure.timeless())) {
       motion_.emplace(context.exposure, context.cancel);

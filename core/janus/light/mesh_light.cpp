@@ -9,8 +9,8 @@ namespace janus {
 MeshLight::MeshLight(const Accel& accel, const Surfaces& surfaces, const Mesh& mesh,
                      const Instance& instance, uint32_t index)
     : accel_(accel), surfaces_(surfaces), instance_(index), slot_(mesh.triangles().size(), kDark) {
-  name = instance.name;
-  light_group = instance.light_group;
+  name = instance.names->name;
+  light_group = instance.names->light_group;
   visibility = instance.visibility;
   holdout = instance.holdout;
   set_links(instance.emitter);

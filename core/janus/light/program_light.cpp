@@ -27,7 +27,7 @@ class ProgramLight final : public Light {
     object_.to_world = desc.transform;
     object_.to_object = glm::inverse(desc.transform);
     object_.normal_to_world = glm::transpose(mat3(object_.to_object));
-    object_.camera = camera;
+    object_.camera = std::make_shared<const CameraView>(camera);
     object_.location = vec3(desc.transform[3]);
     center_ = object_.location;
     sphere_ = !desc.soft_falloff && desc.radius > 0.0f;

@@ -32,7 +32,7 @@ int widest_picture(const Program& program) {
 
 ObjectData no_object(const CameraView& camera) {
   ObjectData object;
-  object.camera = camera;
+  object.camera = std::make_shared<const CameraView>(camera);
   object.color = vec4(0.0f);
   return object;
 }

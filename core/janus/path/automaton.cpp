@@ -121,14 +121,14 @@ PathAutomaton::PathAutomaton(std::span<const Expression> expressions, const Scen
   names.erase(std::ranges::unique(names).begin(), names.end());
   std::vector<std::string> class_names;  // a name for each class; empty: none of the names
   for (const Instance& instance : scene.instances) {
-    const bool named = std::ranges::binary_search(names, instance.name);
-    const std::string& name = named ? instance.name : std::string();
+    const bool named = std::ranges::binary_search(names, instance.names->name);
+    const std::string& name = named ? instance.names->name : std::string();
     auto known = std::ranges::find(class_names, name);
     if (known == class_names.end()) {
       known = class_names.insert(known, name);
     }
     object_class_.push_back(static_cast<uint16_t>(known - class_names.begin()));
-    unknown.erase(instance.name);
+    unknown.erase(instance.names->name);
   }
   symbols_ = class_names.size() * kScatterEvents;
 

@@ -69,9 +69,7 @@ class Commit {
       }
       const std::string& name = desc.name.empty() ? key : desc.name;
       Instance instance;
-      instance.name = name;
-      instance.light_group = desc.light_group;
-      instance.asset = desc.asset;
+      instance.names = names_of({name, desc.light_group, desc.asset});
       instance.shape = shape->second;
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;
@@ -217,6 +215,14 @@ class Commit {
     }
   }
 
+  std::shared_ptr<const Instance::Names> names_of(Instance::Names names) {
+    auto& shared = names_[names];
+    if (!shared) {
+      shared = std::make_shared<const Instance::Names>(std::move(names));
+    }
+    return shared;
+  }
+
   // What stands in the way of a light's shadow rays of their own type.
   static void add_shadow_types(Instance& instance, const ReceiverLinks& links) {
     if (!contains(instance.visibility, RayType::Shadow)) {
@@ -331,6 +337,7 @@ class Commit {
   Scene& scene_;
   const CancelToken& cancel_;
   std::map<std::string, uint32_t> shape_index_;
+  std::map<Instance::Names, std::shared_ptr<const Instance::Names>> names_;
   std::map<std::string, ProgramsByRay> program_index_;
 };
 

@@ -371,8 +371,8 @@ std::map<std::string, std::string> RenderSession::manifest(MatteKind kind) const
     return names;
   }
   for (const Instance& instance : scene_->instances) {
-    const bool own = kind == MatteKind::Object || instance.asset.empty();
-    add(own ? instance.name : instance.asset);
+    const bool own = kind == MatteKind::Object || instance.names->asset.empty();
+    add(own ? instance.names->name : instance.names->asset);
   }
   return names;
 }

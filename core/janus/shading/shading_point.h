@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "janus/math/vec.h"
@@ -27,8 +28,8 @@ struct CameraView {
 // Of an instance.
 struct ObjectData {
   mat4 to_world = mat4(1.0f), to_object = mat4(1.0f);
-  mat3 normal_to_world = mat3(1.0f);  // inverse transpose
-  CameraView camera;
+  mat3 normal_to_world = mat3(1.0f);         // inverse transpose
+  std::shared_ptr<const CameraView> camera;  // one for all
   vec3 location = vec3(0.0f);
   vec4 color = vec4(1.0f);
   float object_index = 0.0f, random = 0.0f;

@@ -251,8 +251,8 @@ TEST(LectureExpressions, KnowNamesAndGroups) {
   const auto scene = kit.build();
   size_t box = 0, block = 0;
   for (size_t i = 0; i < scene->instances.size(); ++i) {
-    box = scene->instances[i].name == "box" ? i : box;
-    block = scene->instances[i].name == "block" ? i : block;
+    box = scene->instances[i].names->name == "box" ? i : box;
+    block = scene->instances[i].names->name == "block" ? i : block;
   }
   std::map<std::string, size_t> lights;
   for (size_t i = 0; i < scene->lights.size(); ++i) {

@@ -66,7 +66,8 @@ TEST(Prefetch, ComesBeforeTheFirstOfALotAtOnePlace) {
 
 TEST(Prefetch, IsHarmlessAnywhere) {
   const Program program = pictures_at({"Object", "Object", "Object"});
-  const ObjectData object;
+  ObjectData object;
+  object.camera = std::make_shared<const CameraView>();
   ShadingPoint point{};
   point.object = &object;
   point.ng = point.ns = point.view = vec3(0, 0, 1);

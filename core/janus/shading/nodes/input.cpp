@@ -34,14 +34,14 @@ constexpr Operation kObjectPoint = at_point<[](const Context& c) {
   return vec3(c.point.object->to_object * vec4(c.point.p, 1.0f));
 }>;
 constexpr Operation kCameraPoint = at_point<[](const Context& c) {
-  return vec3(c.point.object->camera.from_world * vec4(c.point.p, 1.0f));
+  return vec3(c.point.object->camera->from_world * vec4(c.point.p, 1.0f));
 }>;
 // Worlds are as far from the camera as from anything.
 constexpr Operation kCameraDirection =
-    at_point<[](const Context& c) { return mat3(c.point.object->camera.from_world) * c.point.p; }>;
+    at_point<[](const Context& c) { return mat3(c.point.object->camera->from_world) * c.point.p; }>;
 // `data`: 1, for a world.
 constexpr Operation kWindow = at_point<[](const Context& c) {
-  return c.point.object->camera.window(c.point.p, c.data != 0);
+  return c.point.object->camera->window(c.point.p, c.data != 0);
 }>;
 // By the rows of a matrix in a table.
 constexpr Operation kOtherObjectPoint = at_point<[](const Context& c) {

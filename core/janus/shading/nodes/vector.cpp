@@ -207,11 +207,11 @@ vec3 world_to_object(const Context& c, vec3 v) {
 }
 template <Kind K>
 vec3 camera_to_world(const Context& c, vec3 v) {
-  return transform<K>(c.point.object->camera.to_world, c.point.object->camera.from_world, v);
+  return transform<K>(c.point.object->camera->to_world, c.point.object->camera->from_world, v);
 }
 template <Kind K>
 vec3 world_to_camera(const Context& c, vec3 v) {
-  return transform<K>(c.point.object->camera.from_world, c.point.object->camera.to_world, v);
+  return transform<K>(c.point.object->camera->from_world, c.point.object->camera->to_world, v);
 }
 
 template <Kind K>
