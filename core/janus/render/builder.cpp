@@ -68,8 +68,10 @@ class Commit {
         continue;
       }
       const std::string& name = desc.name.empty() ? key : desc.name;
+      const auto names =
+          std::make_shared<const Instance::Names>(name, desc.light_group, desc.asset);
       Instance instance;
-      instance.names = names_of({name, desc.light_group, desc.asset});
+      instance.names = names_.try_emplace(*names, names).first->second;
       instance.shape = shape->second;
       instance.to_world = desc.transform;
       instance.visibility = desc.visibility;
@@ -213,14 +215,6 @@ class Commit {
       add(compile_aovs(graph, name, images, scene_.aov_names, said, {of, RayType::Camera}));
       add_new(scene_.diagnostics, said);
     }
-  }
-
-  std::shared_ptr<const Instance::Names> names_of(Instance::Names names) {
-    auto& shared = names_[names];
-    if (!shared) {
-      shared = std::make_shared<const Instance::Names>(std::move(names));
-    }
-    return shared;
   }
 
   // What stands in the way of a light's shadow rays of their own type.
