@@ -13,6 +13,7 @@ CURVE_RADIUS, POINT_RADIUS = 0.005, 0.01  # of curves and points without one, as
 POLY = 1  # of the attribute curve_type
 # Since then Cycles draws curves of straight pieces as such.
 HAS_STRAIGHT = bpy.app.version >= (5, 0, 0)
+HAIR = "hair"  # what grows on a surface: the part of an object that is no shape of its own
 DOMAINS = {"CURVE": "FACE"}  # what the core calls a curve's own
 
 
@@ -103,7 +104,6 @@ def _along(positions, radii, starts, keys) -> list[dict]:
     steps = np.zeros(len(positions))
     steps[1:] = np.linalg.norm(np.diff(positions.astype(np.float64), axis=0), axis=1)
     first = starts[:-1][counts > 0]
-    steps[first] = 0.0
     total = np.cumsum(steps)
     way = total - np.repeat(total[first], counts[counts > 0])
     lengths = np.zeros(len(counts))

@@ -3,12 +3,13 @@
 
 import numpy as np
 
-from .curves import curves_arrays, hair_systems, particle_hair, points_arrays
+from .curves import HAIR, curves_arrays, hair_systems, particle_hair, points_arrays
 from .light import sync_light
 from .linking import Linking
 from .mesh import mesh_arrays
 from .properties import OF_INSTANCE, OF_OBJECT, InstanceProperties, object_attributes
 from .visibility import (
+    SHAPE_TYPES,
     UNSUPPORTED_TYPES,
     check_object,
     is_shadow_catcher,
@@ -16,12 +17,8 @@ from .visibility import (
     surface_seen_by,
 )
 
-# Object types that have a surface. Whatever they are, the depsgraph shows their faces as an
-# instance of type MESH beside the object itself, so only that is exported.
 MASK = 0xFFFFFFFF  # of 32 bits
 POLL_EVERY = 64  # instances of what is known
-SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
-HAIR = "hair"  # what grows on a surface: the part of an object that is no shape of its own
 
 
 class InstanceSync:
@@ -66,7 +63,11 @@ class InstanceSync:
             if not (shown is None or shown(owner_of(instance).original)):
                 continue
             kind = obj.type
-            if kind == "MESH" and instance.show_particles and self._grows_hair(obj, origin):
+            if (
+                kind == "MESH"
+                and instance.show_particles
+                and self._grows_hair(instance, obj, origin)
+            ):
                 self._surface(instance, obj, origin, HAIR)
             if not instance.show_self:
                 continue
@@ -84,11 +85,10 @@ class InstanceSync:
             elif kind in UNSUPPORTED_TYPES:
                 self._log.warning(UNSUPPORTED_TYPES[kind], object=obj.name)
 
-    def _grows_hair(self, obj, origin: int) -> bool:
+    def _grows_hair(self, instance, obj, origin: int) -> bool:
         if origin not in self._hairy:
-            # What nodes have made is not the object whose hair it would be.
             self._hairy[origin] = self._strands and bool(hair_systems(obj, self._viewport))
-        return self._hairy[origin]
+        return self._hairy[origin] and not made_by_nodes(instance)
 
     def _surface(self, instance, obj, origin: int, part: str = "") -> None:
         # Instances may be a million: what they have in common is read once, and what Blender makes
@@ -186,13 +186,20 @@ class InstanceSync:
 
     def _check(self, obj) -> None:
         """Looks for unsupported settings."""
-        if obj.type in SURFACE_TYPES:
+        if obj.type in SHAPE_TYPES:
             check_object(obj, self._depsgraph.scene_eval, self._log)
 
 
 def owner_of(instance):
     """The object that shows an instance: itself, or what instances it."""
     return instance.parent if instance.is_instance else instance.object
+
+
+def made_by_nodes(instance) -> bool:
+    """Is what it shows not its object's own, but made by a modifier?"""
+    obj = instance.object
+    real = instance.instance_object if instance.is_instance else obj
+    return real.data is None or real.data.as_pointer() != obj.data.as_pointer()
 
 
 def asset_name(obj) -> str:

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .camera import window, without_scale
-from .curves import curves_form, particle_form
+from .curves import HAIR, curves_form, particle_form
+from .instance import made_by_nodes, owner_of
 from .mesh import mesh_form
 
-PARTS = ("", "hair")  # of an object that instances show: its shape, and what grows on it
+PARTS = ("", HAIR)  # of an object that instances show
 MOST_STEPS = 7  # 129 times, as in Cycles
 CURVE_POINTS = 256
 
@@ -67,9 +68,9 @@ def deforms(instance, owner, found: Shutter, scene) -> bool:
         getattr(getattr(item, "cycles", None), "use_deform_motion", True) for item in (obj, owner)
     ):
         return False
+    if made_by_nodes(instance):
+        return True  # they may do anything
     real = instance.instance_object if instance.is_instance else obj
-    if real.data is None or real.data.as_pointer() != obj.data.as_pointer():
-        return True  # made by nodes, which may do anything
     return real.original.is_deform_modified(scene, "RENDER")
 
 
@@ -90,8 +91,9 @@ class _Form:
 class MotionSync:
     """Notes what the sync of the scene places, and then looks where it is at other times."""
 
-    def __init__(self, found: Shutter, log):
+    def __init__(self, found: Shutter, log, viewport: bool):
         self._shutter = found
+        self._viewport = viewport
         self._log = log
         self._objects = {}  # who shows it, and which of its instances -> _Object
         self._forms = {}  # the same, of one for each mesh that may change -> _Form
@@ -104,7 +106,6 @@ class MotionSync:
         if keys < 2:
             return
         identity = (*_identity(instance, owner), part)
-        self._viewport = depsgraph.mode == "VIEWPORT"
         self._objects[identity] = _Object(key, [None] * keys)
         if mesh not in self._meshes and deforms(instance, owner, self._shutter, depsgraph.scene):
             self._forms[identity] = _Form(mesh, instance.object.name, attributes, [None] * keys)
@@ -137,7 +138,7 @@ class MotionSync:
             poll()
             if instance.object.type not in ("MESH", "CURVES", "POINTCLOUD"):
                 continue
-            owner = instance.parent if instance.is_instance else instance.object
+            owner = owner_of(instance)
             shown = _identity(instance, owner)
             for part in PARTS:
                 identity = (*shown, part)

@@ -47,7 +47,7 @@ def sync_scene(
                 kept.note(depsgraph)
 
         now = scene.frame_current + scene.frame_subframe
-        motion = MotionSync(open_at, log)
+        motion = MotionSync(open_at, log, depsgraph.mode == "VIEWPORT")
         try:
             if open_at.center != now:
                 look_at(open_at.center)

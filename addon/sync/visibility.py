@@ -8,6 +8,11 @@ LIGHT_RAYS = RAYS[:-1]  # a light is in nobody's way
 
 TERMINATOR_OFFSET = 0.1001  # Cycles' default, and a little for rounding
 
+# Object types that have a surface. Whatever they are, the depsgraph shows their faces as an
+# instance of type MESH beside the object itself, so only that is exported.
+SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
+SHAPE_TYPES = SURFACE_TYPES | {"CURVES", "POINTCLOUD"}
+
 UNSUPPORTED_TYPES = {
     "VOLUME": "volumes are not supported yet",
 }

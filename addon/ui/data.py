@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..sync.visibility import LIGHT_RAYS, RAYS
+from ..sync.visibility import LIGHT_RAYS, RAYS, SHAPE_TYPES
 from .engine_panels import JanusPanel
 from .material import PreviewPanel, draw_surface, draw_use_nodes
 
@@ -160,7 +160,7 @@ class VisibilityPanel(JanusPanel):
         obj = context.object
         if not super().poll(context) or not obj:
             return False
-        kinds = {"MESH", "CURVE", "SURFACE", "META", "FONT", "LIGHT"}
+        kinds = SHAPE_TYPES | {"LIGHT"}
         return obj.type in kinds or obj.instance_type == "COLLECTION"
 
 

@@ -3,6 +3,7 @@
 
 import bpy
 
+from ..sync.visibility import SHAPE_TYPES
 from .engine_panels import JanusPanel
 
 CURVE_SHAPES = (
@@ -73,7 +74,7 @@ class JANUS_OBJECT_PT_motion_blur(JanusPanel, bpy.types.Panel):
     @classmethod
     def poll(cls, context):
         obj = context.object
-        kinds = {"MESH", "CURVE", "SURFACE", "FONT", "META", "CAMERA", "EMPTY"}
+        kinds = SHAPE_TYPES | {"CAMERA", "EMPTY"}
         return super().poll(context) and obj and obj.type in kinds and hasattr(obj, "cycles")
 
     def draw_header(self, context):

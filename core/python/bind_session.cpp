@@ -26,7 +26,7 @@ constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Wa
                                                  {"cancelled", Progress::State::Cancelled},
                                                  {"failed", Progress::State::Failed}};
 
-// --- Settings
+// --- Settings ---
 
 using Crop = std::optional<std::array<int, 4>>;
 using Expressions = std::vector<std::pair<std::string, std::string>>;

@@ -88,6 +88,8 @@ IDLE_ITEMS = {
 REMARKS = {
     "ATTRIBUTE": "rotations on edges, and instances in instances, are named; before 4.5 also "
     "what Geometry Nodes store on instances",
+    "BSDF_HAIR": "on meshes named; where Cycles looks for lamps it leaves out a part of it",
+    "BSDF_HAIR_PRINCIPLED": "Huang's model is named, and Chiang's is used; on meshes named",
     "BUMP": "a bump in the height of another bump is named",
     "LIGHT_PATH": "which kind of ray asks: camera, shadow, diffuse, glossy, reflection or "
     "transmission; counts of bounces, lengths and Is Singular Ray are named",

@@ -29,6 +29,17 @@ def add_hair(obj, count=5, **settings):
     return system.settings
 
 
+def fur(kind, **settings):
+    """A material of one closure: (material, its node)."""
+    material = new_material("Fur")
+    tree = material.node_tree
+    closure, end = tree.nodes.new(kind), tree.nodes.new("ShaderNodeOutputMaterial")
+    for name, value in settings.items():
+        setattr(closure, name, value)
+    tree.links.new(closure.outputs[0], end.inputs["Surface"])
+    return material, closure
+
+
 def add_points(scene, places, name="Points"):
     """A mesh that nodes make points of."""
     obj = add_square(name)
@@ -63,16 +74,27 @@ def test_radii_and_attributes_of_curves(scene, export, fake_core):
     radius = hair.data.attributes.new("radius", "FLOAT", "POINT")
     radius.data.foreach_set("value", [0.1, 0.2, 0.3, 0.4, 0.5])
     hair.data.attributes.new("tint", "FLOAT", "CURVE").data.foreach_set("value", [7, 8])
-    keys = ["attribute:tint", "curve_intercept", "curve_length", "curve_radius", "attribute:none"]
+    hair.data.attributes.new("Map", "FLOAT2", "CURVE").data.foreach_set("vector", [1, 2, 3, 4])
+    keys = [
+        "attribute:tint",
+        "uv:",
+        "uv:Map",
+        "uv:none",
+        "curve_intercept",
+        "curve_length",
+        "curve_radius",
+        "attribute:none",
+    ]
     fake_core.reads = {"Fur": keys}
     arrays = export().mesh_of("Hair")
     assert arrays["radii"] == pytest.approx([0.1, 0.2, 0.3, 0.4, 0.5])
     found = {a["key"]: (a["domain"], np.ravel(a["values"]).tolist()) for a in arrays["attributes"]}
     assert found["attribute:tint"] == ("FACE", [7, 8])
+    assert found["uv:"] == found["uv:Map"] == ("FACE", [1, 2, 3, 4])
     assert found["curve_intercept"] == ("POINT", [0, 0.5, 1, 0, 1])
     assert found["curve_length"] == ("FACE", [2, 1])
     assert found["curve_radius"][1] == pytest.approx([0.1, 0.2, 0.3, 0.4, 0.5])
-    assert "attribute:none" not in found
+    assert found.keys().isdisjoint(("attribute:none", "uv:none"))
 
 
 def test_view_layers_may_be_without_hair(scene, export):
@@ -85,7 +107,7 @@ def test_view_layers_may_be_without_hair(scene, export):
 def test_particle_hair(scene, export):
     lawn = add_square("Lawn")
     lawn.location = (4, 0, 0)
-    for name in ("Soil", "Grass"):
+    for name in ("Soil", "Grass", "Moss"):
         lawn.data.materials.append(bpy.data.materials.new(name))
     add_hair(
         lawn,
@@ -122,6 +144,25 @@ def test_children_take_the_place_of_particles(scene, export):
     recorder = export()
     hair = next(m for m in recorder.meshes.values() if "curves" in m)
     assert len(hair["curves"]) == 5 * 3 + 1
+
+
+@pytest.mark.parametrize("shape, middle", [(0.0, 0.5), (0.5, 0.25), (-0.5, 0.5**0.5)])
+def test_shape_of_hair(scene, shape, middle):
+    lawn = add_square("Lawn")
+    settings = {"root_radius": 2.0, "tip_radius": 0.0, "radius_scale": 1.0, "shape": shape}
+    add_hair(lawn, use_close_tip=False, hair_length=1.0, render_step=1, **settings)
+    evaluated = lawn.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    arrays = part("sync.curves").particle_hair(evaluated, False, frozenset(), 0)
+    assert arrays["radii"][:3] == pytest.approx([1.0, middle, 0.0], rel=0.1, abs=1e-6)
+
+
+def test_viewports_show_less_hair(scene):
+    lawn = add_square("Lawn")
+    steps = {"render_step": 3, "display_step": 1, "display_percentage": 50}
+    add_hair(lawn, child_type="SIMPLE", child_percent=4, rendered_child_count=4, **steps)
+    evaluated = lawn.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    shown = part("sync.curves").particle_hair(evaluated, True, frozenset(), 0)
+    assert np.diff(shown["curves"]).tolist() == [3] * 10  # of 5 particles with 4 children
 
 
 def test_hair_of_a_hidden_emitter(scene, export):
@@ -209,29 +250,47 @@ def test_bent_hair_moves_its_keys(scene, export):
 
 def test_native_core_takes_it_all(scene, core):
     hair = add_curves()
-    hair.data.materials.append(new_material("Fur"))
-    tree = hair.data.materials[0].node_tree
-    closure = tree.nodes.new("ShaderNodeBsdfHairPrincipled")
-    closure.model = "CHIANG"
-    info, end = tree.nodes.new("ShaderNodeHairInfo"), tree.nodes.new("ShaderNodeOutputMaterial")
-    tree.links.new(info.outputs["Intercept"], closure.inputs["Roughness"])
-    tree.links.new(closure.outputs[0], end.inputs["Surface"])
+    material, closure = fur("ShaderNodeBsdfHairPrincipled", model="CHIANG")
+    hair.data.materials.append(material)
+    info = material.node_tree.nodes.new("ShaderNodeHairInfo")
+    material.node_tree.links.new(info.outputs["Intercept"], closure.inputs["Roughness"])
     add_hair(add_square("Lawn"))
     add_points(scene, 3)
     bpy.ops.render.render()
     assert messages() == []
 
 
-def test_the_other_model_is_named(scene, core):
-    hair = add_curves()
-    hair.data.materials.append(new_material("Fur"))
-    tree = hair.data.materials[0].node_tree
-    closure = tree.nodes.new("ShaderNodeBsdfHairPrincipled")
-    closure.model = "HUANG"
-    end = tree.nodes.new("ShaderNodeOutputMaterial")
-    tree.links.new(closure.outputs[0], end.inputs["Surface"])
+def test_what_hair_is_not_is_named(scene, core):
+    add_curves().data.materials.append(fur("ShaderNodeBsdfHairPrincipled", model="HUANG")[0])
+    add_square("Rug").data.materials.append(fur("ShaderNodeBsdfHair")[0])
     bpy.ops.render.render()
-    assert "its model HUANG is not supported yet; CHIANG is used" in "\n".join(messages())
+    said = "\n".join(messages())
+    assert "its model HUANG is not supported yet; CHIANG is used" in said
+    assert "Object 'Rug': its closures of hair are made for hair" in said
+
+
+def test_what_nodes_make_has_no_hair_of_its_own(scene, export):
+    """Instances of the lawn's own mesh that its nodes make."""
+    lawn = add_square("Lawn")
+    add_hair(lawn)
+    tree = bpy.data.node_groups.new("Copies", "GeometryNodeTree")
+    for in_out in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=in_out, socket_type="NodeSocketGeometry")
+    start, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    cube, copies = (
+        tree.nodes.new("GeometryNodeMeshCube"),
+        tree.nodes.new("GeometryNodeInstanceOnPoints"),
+    )
+    join = tree.nodes.new("GeometryNodeJoinGeometry")
+    tree.links.new(start.outputs[0], copies.inputs["Points"])
+    tree.links.new(cube.outputs[0], copies.inputs["Instance"])
+    tree.links.new(copies.outputs[0], join.inputs[0])
+    tree.links.new(start.outputs[0], join.inputs[0])
+    tree.links.new(join.outputs[0], end.inputs[0])
+    lawn.modifiers.new("Nodes", "NODES").node_group = tree
+    recorder = export()
+    shown = ["curves" in recorder.meshes[i["mesh"]] for i in recorder.instances.values()]
+    assert len(shown) == 6 and sum(shown) == 1  # the lawn, its hair, and four cubes
 
 
 def test_poly_curves_are_straight(scene, export):

@@ -42,7 +42,7 @@ CLOSURES = {
         {"Absorption Coefficient": (0.1, 0.3, 0.8), "Roughness": 0.9, "Radial Roughness": 0.8},
     ),
 }
-SHAPES = ("poly", "particles", "points", "points_glass", "moving", "info", "alpha", "ribbons")
+SHAPES = ("poly", "particles", "points", "points_glass", "moving", "info", "info_rest", "alpha")
 CASES = (*CLOSURES, *SHAPES)
 
 
@@ -137,10 +137,6 @@ def _poly(scene, material):
     hair(scene, material, keys=3).data.set_types(type="POLY")
 
 
-def _ribbons(scene, material):
-    hair(scene, material, radius=0.03, keys=8)
-
-
 def _particles(scene, material):
     import bpy
 
@@ -212,6 +208,22 @@ def _info(scene, material):
         tree.links.new(source, color.inputs[name])
     closure_node = next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
     tree.links.new(color.outputs[0], closure_node.inputs["Color"])
+    hair(scene, material)
+
+
+def _info_rest(scene, material):
+    """Hair that shines with what else it says."""
+    tree = material.node_tree
+    info, glow = tree.nodes.new("ShaderNodeHairInfo"), tree.nodes.new("ShaderNodeEmission")
+    positive, scaled = (tree.nodes.new("ShaderNodeVectorMath") for _ in range(2))
+    positive.operation, scaled.operation = "ABSOLUTE", "SCALE"
+    tree.links.new(info.outputs["Tangent Normal"], positive.inputs[0])
+    tree.links.new(positive.outputs[0], scaled.inputs[0])
+    tree.links.new(info.outputs["Length"], scaled.inputs["Scale"])
+    tree.links.new(scaled.outputs[0], glow.inputs["Color"])
+    tree.links.new(info.outputs["Is Strand"], glow.inputs["Strength"])
+    end = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    tree.links.new(glow.outputs[0], end.inputs["Surface"])
     hair(scene, material)
 
 

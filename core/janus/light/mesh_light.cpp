@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/light/mesh_light.h"
 
+#include "janus/geometry/mesh.h"
 #include "janus/math/frame.h"
 #include "janus/math/warp.h"
 
 namespace janus {
 
-MeshLight::MeshLight(const Accel& accel, const Surfaces& surfaces, const Mesh& mesh,
+MeshLight::MeshLight(const Accel& accel, const Surfaces& surfaces, const Shape& shape,
                      const Instance& instance, uint32_t index)
-    : accel_(accel), surfaces_(surfaces), instance_(index), slot_(mesh.triangles().size(), kDark) {
+    : accel_(accel), surfaces_(surfaces), instance_(index), slot_(shape.primitives(), kDark) {
   name = instance.names->name;
   light_group = instance.names->light_group;
   visibility = instance.visibility;
   holdout = instance.holdout;
   set_links(instance.emitter);
+  if (const Mesh* mesh = shape.mesh()) {
+    add_triangles(*mesh, instance);
+  }
+}
+
+void MeshLight::add_triangles(const Mesh& mesh, const Instance& instance) {
   const mat3 linear(instance.to_world);
   std::vector<float> weights;
   for (uint32_t i = 0; i < slot_.size(); ++i) {
     const Mesh::Triangle& t = mesh.triangles()[i];
-    const Program& program = surfaces.program(instance.material(t.material));
+    const Program& program = surfaces_.program(instance.material(t.material));
     if (!program.emits() || !program.sample_emission) {
       continue;
     }
@@ -34,7 +41,7 @@ MeshLight::MeshLight(const Accel& accel, const Surfaces& surfaces, const Mesh& m
     if (!(weight > 0.0f)) {
       continue;
     }
-    const SurfaceInteraction surface = accel.surface_point(index, i, vec2(1.0f / 3.0f));
+    const SurfaceInteraction surface = accel_.surface_point(instance_, i, vec2(1.0f / 3.0f));
     slot_[i] = static_cast<uint32_t>(triangles_.size());
     triangles_.push_back(
         {radiance, program.varying_emission, surface.ng, surface.offset, 1.0f / area, {}, i});

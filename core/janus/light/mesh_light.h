@@ -8,11 +8,12 @@
 
 namespace janus {
 
-// The emitting triangles of one instance. Both sides shine, as in Cycles.
+// The emitting triangles of one instance. Both sides shine, as in Cycles. Of what is round all
+// primitives stay dark here, as there: their light is found by chance.
 class MeshLight final : public Light {
  public:
   // Of instance `index`, whose materials emit. What is not to be looked for stays dark here.
-  MeshLight(const Accel& accel, const Surfaces& surfaces, const Mesh& mesh,
+  MeshLight(const Accel& accel, const Surfaces& surfaces, const Shape& shape,
             const Instance& instance, uint32_t index);
 
   float power() const override { return power_; }
@@ -41,6 +42,7 @@ class MeshLight final : public Light {
   static constexpr uint32_t kDark = 0xffffffffU;
 
   const Triangle& triangle(uint32_t primitive) const { return triangles_[slot_[primitive]]; }
+  void add_triangles(const Mesh& mesh, const Instance& instance);
   // What the mesh's triangle emits: the mean over some of its points, from both sides.
   Rgb mean_radiance(uint32_t primitive) const;
   // At a point, into the unit direction `view`.

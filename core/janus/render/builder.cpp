@@ -7,6 +7,7 @@
 #include "janus/render/camera_checks.h"
 #include "janus/render/lamp.h"
 #include "janus/render/onlookers.h"
+#include "janus/render/surroundings.h"
 #include "janus/render/time_slice.h"
 #include "janus/render/world.h"
 #include "janus/shading/compiler.h"
@@ -14,6 +15,9 @@
 namespace janus {
 
 namespace {
+
+constexpr const char* kFibersOnMesh =
+    "its closures of hair are made for hair; on a mesh they may look otherwise than in Cycles";
 
 // A material's programs in Surfaces, by kRays.
 using ProgramsByRay = std::array<uint32_t, std::size(kRays)>;
@@ -99,6 +103,9 @@ class Commit {
         seen.visibility &= rays;
         add_shadow_types(seen, desc.receiver);
         for (const uint32_t program : programs) {
+          if (scene_.surfaces.program(program).fibers && scene_.shapes[seen.shape]->mesh()) {
+            add_new(scene_.diagnostics, {{Severity::Warning, name, "", "", kFibersOnMesh}});
+          }
           seen.materials.push_back(
               scene_.surfaces.bind(program, *scene_.shapes[seen.shape], desc.attributes));
         }
@@ -114,7 +121,7 @@ class Commit {
   void build_accel(const Scene* last) {
     scene_.accel = std::make_shared<const Accel>(scene_.shapes, scene_.instances, cancel_,
                                                  last ? last->accel.get() : nullptr);
-    scene_.surroundings = scene_.whole ? scene_.whole->surroundings : surroundings();
+    scene_.surroundings = scene_.whole ? scene_.whole->surroundings : surroundings(scene_);
   }
 
   void add_mesh_lights() {
@@ -126,17 +133,18 @@ class Commit {
       const bool emits =
           std::any_of(instance.materials.begin(), instance.materials.end(),
                       [&](uint32_t p) { return scene_.surfaces.program(p).emits(); });
-      const Mesh* mesh = scene_.shapes[instance.shape]->mesh();
-      if (!emits || !mesh) {  // what is round is found by chance, as in Cycles
+      if (!emits) {
         continue;
       }
+      const Shape& shape = *scene_.shapes[instance.shape];
       // Rays find what nobody looks for, or what was dark wherever one looked.
       const bool by_chance =
+          shape.round() ||
           std::any_of(instance.materials.begin(), instance.materials.end(), [&](uint32_t p) {
             const Program& program = scene_.surfaces.program(p);
             return program.emits() && (!program.sample_emission || program.varying_emission);
           });
-      auto light = std::make_unique<MeshLight>(*scene_.accel, scene_.surfaces, *mesh, instance,
+      auto light = std::make_unique<MeshLight>(*scene_.accel, scene_.surfaces, shape, instance,
                                                static_cast<uint32_t>(i));
       if (light->power() > 0.0f || by_chance) {
         instance.light = static_cast<int>(scene_.lights.size());
@@ -147,8 +155,9 @@ class Commit {
 
   void add_lamps(const std::map<std::string, LightDesc>& lights, const ImageMap& images,
                  const CameraDesc& camera) {
-    const LampSurroundings around{view_of(camera), SceneBox(scene_.surroundings),
-                                  [&](const LightDesc& lamp) { return surfaces_near(lamp); }};
+    const LampSurroundings around{
+        view_of(camera), SceneBox(scene_.surroundings),
+        [&](const LightDesc& lamp) { return surfaces_near(scene_, lamp); }};
     for (const auto& [key, desc] : lights) {
       const bool shines = !scene_.whole || desc.lights_catchers;
       LightDesc lamp = desc;
@@ -280,52 +289,6 @@ class Commit {
       return nullptr;
     }
     return std::make_shared<const Motion>(keys);
-  }
-
-  // Around all surfaces, at all times.
-  Bounds surroundings() const {
-    Bounds bounds = scene_.accel->bounds();
-    for (const Instance& instance : scene_.instances) {
-      const Shape& shape = *scene_.shapes[instance.shape];
-      if (moves(scene_, instance) && shape.primitives() > 0) {
-        bounds.extend(swept(instance, shape));
-      }
-    }
-    return bounds;
-  }
-
-  // Where an instance is at one time or another.
-  static Bounds swept(const Instance& instance, const Shape& shape) {
-    return instance.motion ? instance.motion->swept(shape.bounds())
-                           : transformed(shape.bounds(), instance.to_world);
-  }
-
-  // Can a surface lie within the lamp's radius?
-  bool surfaces_near(const LightDesc& lamp) const {
-    const vec3 center(lamp.transform[3]);
-    for (const Instance& instance : scene_.instances) {
-      const Shape& shape = *scene_.shapes[instance.shape];
-      const auto near = [&](const Bounds& bounds) {
-        return length2(glm::clamp(center, bounds.lower, bounds.upper) - center) < sqr(lamp.radius);
-      };
-      if (shape.primitives() == 0 || !near(swept(instance, shape))) {
-        continue;
-      }
-      const Mesh* mesh = shape.mesh();
-      if (moves(scene_, instance) || !mesh) {
-        return true;
-      }
-      for (const Mesh::Triangle& triangle : mesh->triangles()) {
-        Bounds bounds;
-        for (const uint32_t v : triangle.v) {
-          bounds.extend(vec3(instance.to_world * vec4(mesh->positions()[v], 1.0f)));
-        }
-        if (near(bounds)) {
-          return true;
-        }
-      }
-    }
-    return false;
   }
 
   Scene& scene_;

@@ -208,7 +208,7 @@ std::optional<BsdfSample> BsdfView::sample_direction(const Lobe& lobe, vec3 from
   if (one_way_ && mode == TransportMode::Importance) {
     return sample;
   }
-  const auto to = is_fiber(lobe.type) ? sample_fiber(lobe, ng_, ns_, from, u_event, u)
+  const auto to = is_fiber(lobe.type) ? sample_fiber(lobe, ng_, from, u_event, u)
                                       : sample_lobe(lobe, ng_, from, u_event, u, mode);
   if (!to) {
     return sample;

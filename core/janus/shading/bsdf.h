@@ -96,7 +96,6 @@ class BsdfView {
 
   std::span<const Lobe> lobes() const { return lobes_; }
   vec3 ng() const { return ng_; }
-  vec3 ns() const { return ns_; }
   bool one_way() const { return one_way_; }
 
  private:

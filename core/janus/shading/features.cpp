@@ -56,7 +56,7 @@ SurfaceFeatures surface_features(const BsdfView& bsdf, Rgb transparency, vec3 ns
     const float weight = std::abs(average(lobe.weight));
     features.normal += weight * facing_normal(lobe, bsdf.ng(), ns, wo);
     sum += weight;
-    const SurfaceColor color = surface_color(lobe, bsdf.ng(), ns, wo);
+    const SurfaceColor color = surface_color(lobe, bsdf.ng(), wo);
     const Rgb albedo = color.diffuse + color.glossy + color.transmission;
     if (is_ggx(lobe.type) && lobe.alpha <= kSmoothAlpha) {
       features.smooth += albedo;

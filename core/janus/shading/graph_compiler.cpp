@@ -126,6 +126,10 @@ Value GraphCompiler::implicit(const SocketDecl& socket, uint16_t at) {
       return emit(kAttribute, {}, attribute("uv:"), at);
     case Implicit::Along:
       return emit(kAlong, {}, 0, at);
+    case Implicit::Beside:
+      return emit(kAlong, {}, 1, at);
+    case Implicit::OnCurve:
+      return emit(kOnCurve, {}, 0, at);
     case Implicit::Strand:
     case Implicit::Value:
       break;

@@ -17,8 +17,6 @@ float other_leg(float x) { return std::sqrt(std::max(0.0f, 1.0f - x * x)); }  //
 float safe_asin(float x) { return std::asin(std::clamp(x, -1.0f, 1.0f)); }
 float safe_acos(float x) { return std::acos(std::clamp(x, -1.0f, 1.0f)); }
 
-vec3 facing(vec3 n, float wo_ng) { return wo_ng < 0.0f ? -n : n; }
-
 // --- Hair BSDF -----------------------------------------------------------------------------------
 
 // Directions around a fibre, as seen from `wo`.
@@ -153,8 +151,7 @@ class ChiangView {
  public:
   static constexpr int kTerms = 4;  // R, TT, TRT, all after
 
-  // `n`: on the side of wo.
-  ChiangView(const Lobe& lobe, vec3 n, vec3 wo) : lobe_(lobe), along_(lobe.normal) {
+  ChiangView(const Lobe& lobe, vec3 ng, vec3 wo) : lobe_(lobe), along_(lobe.normal) {
     const vec3 across = cross(along_, wo);
     const float length = glm::length(across);
     usable_ = length > 0.0f;
@@ -163,6 +160,7 @@ class ChiangView {
     sin_o_ = std::clamp(dot(wo, along_), -1.0f, 1.0f);
     cos_o_ = other_leg(sin_o_);
     phi_o_ = std::atan2(dot(wo, z_), dot(wo, y_));
+    const vec3 n = dot(wo, ng) < 0.0f ? -ng : ng;
     const float h = std::clamp(dot(cross(n, along_), z_), -1.0f, 1.0f);
     gamma_o_ = std::asin(h);
     const float sin_gamma_t = h * cos_o_ / std::sqrt(std::max(sqr(lobe.ior) - sqr(sin_o_), 1e-6f));
@@ -245,8 +243,8 @@ class ChiangView {
   float pmf_[kTerms] = {};
 };
 
-LobeEval evaluate_chiang(const Lobe& lobe, const Directions& d) {
-  const ChiangView view(lobe, facing(d.ns, d.wo_ng), d.wo);
+LobeEval evaluate_chiang(const Lobe& lobe, vec3 ng, const Directions& d) {
+  const ChiangView view(lobe, ng, d.wo);
   LobeEval out;
   if (!view.usable()) {
     return out;
@@ -303,11 +301,11 @@ Rgb absorption_of_melanin(float eumelanin, float pheomelanin) {
   return eumelanin * Rgb(0.506f, 0.841f, 1.653f) + pheomelanin * Rgb(0.343f, 0.733f, 1.924f);
 }
 
-Rgb fiber_color(const Lobe& lobe, vec3 ns, vec3 wo) {
+Rgb fiber_color(const Lobe& lobe, vec3 ng, vec3 wo) {
   if (lobe.type == LobeType::HairReflection || lobe.type == LobeType::HairTransmission) {
     return lobe.weight;
   }
-  const ChiangView view(lobe, dot(ns, wo) < 0.0f ? -ns : ns, wo);
+  const ChiangView view(lobe, ng, wo);
   Rgb sum(0.0f);
   for (int p = view.first(); p <= view.last() && view.usable(); ++p) {
     sum += view.attenuation(p);
@@ -315,18 +313,17 @@ Rgb fiber_color(const Lobe& lobe, vec3 ns, vec3 wo) {
   return lobe.weight * sum;
 }
 
-LobeEval evaluate_fiber(const Lobe& lobe, const Directions& d) {
+LobeEval evaluate_fiber(const Lobe& lobe, vec3 ng, const Directions& d) {
   return lobe.type == LobeType::HairReflection || lobe.type == LobeType::HairTransmission
              ? evaluate_hair(lobe, d)
-             : evaluate_chiang(lobe, d);
+             : evaluate_chiang(lobe, ng, d);
 }
 
-std::optional<vec3> sample_fiber(const Lobe& lobe, vec3 ng, vec3 ns, vec3 wo, float u_event,
-                                 vec2 u) {
+std::optional<vec3> sample_fiber(const Lobe& lobe, vec3 ng, vec3 wo, float u_event, vec2 u) {
   if (lobe.type == LobeType::HairReflection || lobe.type == LobeType::HairTransmission) {
     return sample_hair(lobe, wo, u);
   }
-  const ChiangView view(lobe, facing(ns, dot(wo, ng)), wo);
+  const ChiangView view(lobe, ng, wo);
   if (!view.usable()) {
     return std::nullopt;
   }

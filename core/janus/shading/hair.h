@@ -4,10 +4,9 @@
 // comes out where it has come in, and the camera sees the side that looks at it. Only camera walks
 // sample them (Bsdf::one_way()).
 //
-// - Hair BSDF: Cauchy and cosine lobes around the cone of mirror directions (Cycles; after
-// Marschner
-//   et al. 2003). Reflections may go around the fibre: so they do in Cycles, but where it looks for
-//   lamps it leaves out those on the far side, and transmissions on the near side.
+// - Hair BSDF: Cauchy and cosine lobes around the cone of mirror directions (as in Cycles, after
+//   Marschner et al. 2003). Reflections may go around the fibre: so they do there, but where Cycles
+//   looks for lamps it leaves out those on the far side, and transmissions on the near side.
 // - Principled Hair BSDF: Chiang et al., "A Practical and Controllable Hair and Fur Model for
 //   Production Path Tracing" (2016), after d'Eon et al. 2011: for each number p of bounces inside,
 //   an attenuation A_p, a longitudinal term M_p and an azimuthal one N_p, in the frame of the view.
@@ -38,12 +37,11 @@ Lobe chiang_lobe(LobeType type, Rgb weight, vec3 along, const ChiangHair& hair);
 Rgb absorption_of_color(Rgb color, float radial_roughness);
 Rgb absorption_of_melanin(float eumelanin, float pheomelanin);
 
-// The colour of a fibre lobe, for passes: an estimate, seen from `wo`. `ns`: on either side.
-Rgb fiber_color(const Lobe& lobe, vec3 ns, vec3 wo);
+// The colour of a fibre lobe, for passes: an estimate, seen from `wo`.
+Rgb fiber_color(const Lobe& lobe, vec3 ng, vec3 wo);
 
 // As evaluate_lobe() and sample_lobe(). Walks from lights do not draw: their density is 0.
-LobeEval evaluate_fiber(const Lobe& lobe, const Directions& d);
-std::optional<vec3> sample_fiber(const Lobe& lobe, vec3 ng, vec3 ns, vec3 wo, float u_event,
-                                 vec2 u);
+LobeEval evaluate_fiber(const Lobe& lobe, vec3 ng, const Directions& d);
+std::optional<vec3> sample_fiber(const Lobe& lobe, vec3 ng, vec3 wo, float u_event, vec2 u);
 
 }  // namespace janus

@@ -25,19 +25,20 @@ void add_lobe(const Lobe& lobe, ShadingResult& out) {
 }
 
 namespace hair {
-enum Input { Color, Offset, RoughnessU, RoughnessV, Tangent };
-constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 0.8f},
-                                  {"Offset", Float, 0.0f},
-                                  {"RoughnessU", Float, 0.1f},
-                                  {"RoughnessV", Float, 1.0f},
-                                  {"Tangent", Vector, Implicit::Along}};
+// Cycles knows no offset on surfaces that are no hair.
+enum Input { Color, Offset, RoughnessU, RoughnessV, Tangent, OnCurve };
+constexpr SocketDecl kInputs[] = {
+    {"Color", SocketType::Color, 0.8f},    {"Offset", Float, 0.0f},
+    {"RoughnessU", Float, 0.1f},           {"RoughnessV", Float, 1.0f},
+    {"Tangent", Vector, Implicit::Beside}, {"On Curve", Float, Implicit::OnCurve}};
 
 void add(const ClosureArguments& a, ShadingResult& out) {
   if (const auto along = direction(a.vector(Tangent))) {
     const bool transmission = a.variant() == 1;
-    add_lobe(hair_lobe(transmission, a.share() * a.positive_color(Color), *along,
-                       a.number(RoughnessU), a.number(RoughnessV), a.number(Offset)),
-             out);
+    add_lobe(
+        hair_lobe(transmission, a.share() * a.positive_color(Color), *along, a.number(RoughnessU),
+                  a.number(RoughnessV), a.number(OnCurve) * a.number(Offset)),
+        out);
   }
 }
 }  // namespace hair
@@ -73,7 +74,7 @@ constexpr SocketDecl kInputs[] = {
     {"Random Color", Float, 0.0f},
     {"Random Roughness", Float, 0.0f},
     {"Random", Float, Implicit::Strand},
-    {"", Vector, Implicit::Along}};
+    {"Along", Vector, Implicit::Along}};
 enum Parametrization { FromAbsorption, FromMelanin, FromColor };
 
 Rgb absorption(const ClosureArguments& a, float random, float radial_roughness) {

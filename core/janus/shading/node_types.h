@@ -28,8 +28,10 @@ enum class Implicit {
   Normal,  // the shading normal, on the viewer's side
   Uv,      // the active UV map
   Position,
-  Along,   // of a fibre, its direction; elsewhere that of a triangle
-  Strand,  // a number of the curve's own, in [0, 1]; elsewhere the default
+  Along,    // on curves, their direction; elsewhere the first edge of the triangle
+  Beside,   // the same, but elsewhere the second edge
+  OnCurve,  // 1 on curves, else 0
+  Strand,   // a number of the curve's own, in [0, 1]; elsewhere the default
 };
 
 struct SocketDecl {

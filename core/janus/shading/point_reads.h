@@ -18,10 +18,11 @@ inline vec3 read_parametric(const Context& c) {
   return vec3(1.0f - b.x - b.y, b.x, 0.0f);
 }
 
-// Not of unit length.
+// Not of unit length. `data`: 1, the second edge of a triangle.
 inline vec3 read_along(const Context& c) {
-  return c.point.on_curve ? c.point.edge_u : c.point.edge_v;
+  return c.point.on_curve || c.data == 0 ? c.point.edge_u : c.point.edge_v;
 }
+inline float read_on_curve(const Context& c) { return c.point.on_curve ? 1.0f : 0.0f; }
 
 // Cycles' hash of the curve.
 inline float read_strand(const Context& c, float elsewhere) {
@@ -31,6 +32,7 @@ inline float read_strand(const Context& c, float elsewhere) {
 }
 
 inline constexpr Operation kAlong = at_point<&read_along>;
+inline constexpr Operation kOnCurve = at_point<&read_on_curve>;
 inline constexpr Operation kStrand = at_point<&read_strand>;
 inline constexpr Operation kPosition = at_point<&read_position>;
 inline constexpr Operation kFacingNormal = by_side<&read_normal>;

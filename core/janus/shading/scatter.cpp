@@ -248,7 +248,7 @@ LobeEval evaluate_lobe(const Lobe& lobe, vec3 ng, const Directions& d) {
     return evaluate_diffuse(lobe, ng, d);
   }
   if (is_fiber(lobe.type)) {
-    return evaluate_fiber(lobe, d);
+    return evaluate_fiber(lobe, ng, d);
   }
   if (!d.same_side() && !transmits(lobe)) {
     return {};

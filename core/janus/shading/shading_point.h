@@ -51,8 +51,8 @@ struct ShadingPoint {
   // By the program's slot; null where the mesh has none of that name.
   const AttributeDesc* const* attributes;
   float material_index;
-  // Edges of the triangle in the world (on curves: along it, and nothing), and the size of a pixel
-  // there: see shifted().
+  // Edges of the triangle in the world (of a curve: its derivative, and nothing), and the size of a
+  // pixel there: see shifted().
   vec3 edge_u, edge_v;
   float footprint;  // metres
   // The interpolated normal in object space, as long as it comes out: what tangents go with.

@@ -8,12 +8,12 @@
 
 namespace janus {
 
-SurfaceColor surface_color(const Lobe& lobe, vec3 front, vec3 ns, vec3 wo) {
+SurfaceColor surface_color(const Lobe& lobe, vec3 front, vec3 wo) {
   SurfaceColor color;
   if (is_fiber(lobe.type)) {
     const bool reflects =
         lobe.type == LobeType::HairReflection || lobe.type == LobeType::ChiangReflection;
-    (reflects ? color.glossy : color.transmission) = fiber_color(lobe, ns, wo);
+    (reflects ? color.glossy : color.transmission) = fiber_color(lobe, front, wo);
     return color;
   }
   const bool back = dot(wo, front) < 0.0f;
@@ -58,7 +58,7 @@ SurfaceColor surface_color(const Lobe& lobe, vec3 front, vec3 ns, vec3 wo) {
 SurfaceColor surface_color(const BsdfView& bsdf, vec3 wo) {
   SurfaceColor sum;
   for (const Lobe& lobe : bsdf.lobes()) {
-    const SurfaceColor color = surface_color(lobe, bsdf.ng(), bsdf.ns(), wo);
+    const SurfaceColor color = surface_color(lobe, bsdf.ng(), wo);
     sum.diffuse += color.diffuse;
     sum.glossy += color.glossy;
     sum.transmission += color.transmission;

@@ -15,7 +15,7 @@ struct SurfaceColor {
 // Seen from `wo`. Translucent lobes are diffuse; reflections of glass are glossy; fibres are
 // glossy where they reflect, and transmission with all else.
 SurfaceColor surface_color(const BsdfView& bsdf, vec3 wo);
-// Of one lobe of a surface with geometric normal `ng` and shading normal `ns`.
-SurfaceColor surface_color(const Lobe& lobe, vec3 ng, vec3 ns, vec3 wo);
+// Of one lobe of a surface with geometric normal `ng`.
+SurfaceColor surface_color(const Lobe& lobe, vec3 ng, vec3 wo);
 
 }  // namespace janus

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "janus/util/error.h"
+#include "support/pictures.h"
 #include "support/scene_kit.h"
 #include "support/statistics.h"
 
@@ -119,6 +120,20 @@ TEST(RoundShape, DiskAtTheEnd) {
   EXPECT_GT(dot(hit->ng, -d), 1.0f - 1e-6f);
   EXPECT_GT(dot(hit->ns, -d), 1.0f - 1e-6f);
   EXPECT_EQ(hit->primitive, 2u);  // behind the piece and the other disk
+}
+
+// It is no light that anybody looks for, but walks that meet it find its light.
+TEST(RoundShape, Shines) {
+  const auto scene = SceneKit()
+                         .add("ball", balls({{0, 0, 0}}, 0.5f), emission(Rgb(1, 2, 3), 1))
+                         .camera({0, -2, 0}, {0, 0, 0}, 0.1f)
+                         .build();
+  ASSERT_EQ(scene->lights.size(), 1u);
+  EXPECT_EQ(scene->lights[0]->power(), 0.0f);
+  for (const auto integrator : {IntegratorType::PathTracer, IntegratorType::Bdpt}) {
+    EXPECT_NEAR(quarters(scene, small_picture(integrator, 4), 4)[0].mean(), luminance(Rgb(1, 2, 3)),
+                1e-4);
+  }
 }
 
 // A ray that leaves does not meet where it started, outward or inward, near the origin or far.

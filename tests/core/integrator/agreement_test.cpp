@@ -76,6 +76,15 @@ const AgreementScene kScenes[] = {
     {"hair",  // where light walks end
      [] { return strands_in(room()).light("l", area_light({0, 0, 0.95f}, {0, 0, 0}, 0.9f, 20)); },
      false, 64},
+    {"shining_hair",  // light that walks alone can find
+     [] {
+       return room()
+           .add("tube", strand({{-0.7f, 0, 0.6f}, {0, 0.2f, 0.8f}, {0.7f, 0, 0.6f}}, 0.15f),
+                emission(Rgb(1, 0.8f, 0.6f), 4))
+           .add("balls", balls({{0.5f, -0.3f, 0}, {-0.1f, -0.5f, 0.2f}}, 0.12f),
+                combine("ADD_SHADER", diffuse(Rgb(0.5f)), emission(Rgb(0.5f, 0.7f, 1), 3)));
+     },
+     false, 96},
     {"mixture",  // delta and smooth lobes at one point
      [] {
        return room()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Light and shadow linking: which lights a surface sees, and what stands in their way.
+#include "janus/render/shadows_ahead.h"
 #include "support/pictures.h"
 #include "support/scene_kit.h"
 
@@ -113,6 +114,23 @@ TEST(Linking, LightsAreBlockedByTheirBlockersAlone) {
     EXPECT_NEAR(picture(1 << 2, 2, 1), lit, 0.05 * lit);
     EXPECT_NEAR(picture(1 << 2 | 1 << 1, 2, 1), 2 * lit, 0.1 * lit);
   }
+}
+
+// What a walk meets before it finds lights of several sets.
+TEST(Linking, ShadowsOfEachSetAreItsOwn) {
+  const RayType plain = RayType::Shadow, first = shadow_ray_of(1), second = shadow_ray_of(4);
+  ShadowsAhead ahead(ray_bit(plain) | ray_bit(first) | ray_bit(second), 0, 2);
+  ahead.meet(ray_bit(plain) | ray_bit(second), Rgb(0.5f));
+  ahead.meet(ray_bit(second) | ray_bit(RayType::Camera), Rgb(0.5f));
+  EXPECT_EQ(ahead.through(plain), Rgb(0.5f));
+  EXPECT_EQ(ahead.through(first), Rgb(1.0f));
+  EXPECT_EQ(ahead.through(second), Rgb(0.25f));
+  ahead.meet(ray_bit(second), Rgb(0.5f));  // a third crossing: more than there may be
+  EXPECT_EQ(ahead.through(second), Rgb(0.0f));
+  ahead.meet(ray_bit(plain), Rgb(0.0f));
+  EXPECT_FALSE(ahead.ended());
+  ahead.meet(ray_bit(first), Rgb(0.0f));
+  EXPECT_TRUE(ahead.ended());
 }
 
 // All of it in one scene with glossy surfaces, glass and a sky, by all integrators.

@@ -48,6 +48,15 @@ FIBERS = (
         "facing > 2.0f) {",
     ),
     one(
+        "dark-hair",
+        0,
+        "hair that shines is no light for the walks that find it",
+        HAIR,
+        "core/janus/render/builder.cpp",
+        "shape.round() ||",
+        "(false && shape.round()) ||",
+    ),
+    one(
         "scales-that-tilt-all-alike",
         0,
         "reflections turn by the tilt of the scales once",

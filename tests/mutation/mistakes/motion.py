@@ -61,7 +61,7 @@ MOTION_AND_LINKING = (
         0,
         "light from far away misses what moves out of the scene's box",
         MOTION,
-        "core/janus/render/builder.cpp",
+        "core/janus/render/surroundings.cpp",
         "bounds.extend(swept(instance, shape));",
         "bounds.extend(bounds);",
     ),

@@ -176,8 +176,6 @@ void emit_tangent(NodeEmitter& e) {
 constexpr std::string_view kCurvesInfo[] = {"Is Strand", "Intercept",      "Length",
                                             "Thickness", "Tangent Normal", "Random"};
 
-constexpr Operation kIsStrand =
-    at_point<[](const Context& c) { return c.point.on_curve ? 1.0f : 0.0f; }>;
 // To the viewer, across the curve.
 constexpr Operation kTangentNormal = by_view<[](const Context& c) {
   const vec3 along = c.point.edge_u, view = c.point.view;
@@ -196,7 +194,7 @@ constexpr Operation kThickness = at_point<[](const Context& c) {
 }>;
 
 void emit_curves_info(NodeEmitter& e) {
-  e.output("Is Strand", e.emit(kIsStrand, {}));
+  e.output("Is Strand", e.emit(kOnCurve, {}));
   e.output("Random", e.emit(kStrand, {e.constant(0.0f)}));
   e.output("Tangent Normal", e.emit(kTangentNormal, {}));
   for (const auto& [output, key] :
