@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from . import film_scenes
+from . import data_scenes, film_scenes
 from .pass_scenes import save  # noqa: F401  (both.py looks for it)
 
 SEEDS, SAMPLES = 2, 512
@@ -52,12 +52,7 @@ def build(name: str):
     scene.cycles.transparent_max_bounces = case.get("crossings", 8)
     scene.world.cycles_visibility.camera = not case.get("hidden", False)
     if case.get("panorama"):
-        camera = scene.camera.data
-        camera.type = "PANO"
-        owner = camera if hasattr(camera, "panorama_type") else camera.cycles
-        owner.panorama_type = "EQUIRECTANGULAR"
-        owner.longitude_min, owner.longitude_max = -0.7, 0.7
-        owner.latitude_min, owner.latitude_max = -0.5, 0.5
+        data_scenes.look_around(scene.camera.data)
     return scene
 
 

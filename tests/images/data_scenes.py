@@ -65,12 +65,17 @@ def build(name: str):
     if name == "orthographic":
         camera.type, camera.ortho_scale = "ORTHO", 4.0
     elif name == "panorama":
-        camera.type = "PANO"
-        owner = camera if hasattr(camera, "panorama_type") else camera.cycles
-        owner.panorama_type = "EQUIRECTANGULAR"
-        owner.longitude_min, owner.longitude_max = -0.7, 0.7
-        owner.latitude_min, owner.latitude_max = -0.5, 0.5
+        look_around(camera)
     return scene
+
+
+def look_around(camera) -> None:
+    """Makes it a panorama of what is before it."""
+    camera.type = "PANO"
+    owner = camera if hasattr(camera, "panorama_type") else camera.cycles
+    owner.panorama_type = "EQUIRECTANGULAR"
+    owner.longitude_min, owner.longitude_max = -0.7, 0.7
+    owner.latitude_min, owner.latitude_max = -0.5, 0.5
 
 
 def move(scene) -> None:
