@@ -249,12 +249,16 @@ def test_bent_hair_moves_its_keys(scene, export):
 
 
 def test_native_core_takes_it_all(scene, core):
+    """Fur in a slot of its own, too, which no face has."""
     hair = add_curves()
     material, closure = fur("ShaderNodeBsdfHairPrincipled", model="CHIANG")
     hair.data.materials.append(material)
     info = material.node_tree.nodes.new("ShaderNodeHairInfo")
     material.node_tree.links.new(info.outputs["Intercept"], closure.inputs["Roughness"])
-    add_hair(add_square("Lawn"))
+    lawn = add_square("Lawn")
+    lawn.data.materials.append(bpy.data.materials.new("Soil"))
+    lawn.data.materials.append(material)
+    add_hair(lawn, material=2)
     add_points(scene, 3)
     bpy.ops.render.render()
     assert messages() == []

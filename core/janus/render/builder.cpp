@@ -103,11 +103,11 @@ class Commit {
         seen.visibility &= rays;
         add_shadow_types(seen, desc.receiver);
         for (const uint32_t program : programs) {
-          if (scene_.surfaces.program(program).fibers && scene_.shapes[seen.shape]->mesh()) {
-            add_new(scene_.diagnostics, {{Severity::Warning, name, "", "", kFibersOnMesh}});
-          }
           seen.materials.push_back(
               scene_.surfaces.bind(program, *scene_.shapes[seen.shape], desc.attributes));
+        }
+        if (fibers_on_mesh(seen)) {
+          add_new(scene_.diagnostics, {{Severity::Warning, name, "", "", kFibersOnMesh}});
         }
         add_instance(std::move(seen));
       }
@@ -213,6 +213,16 @@ class Commit {
 
   void warn(const std::string& object, const std::string& message) {
     scene_.diagnostics.push_back({Severity::Warning, object, "", "", message});
+  }
+
+  // Does some triangle have closures of hair? The hair that grows on a mesh shares its slots.
+  bool fibers_on_mesh(const Instance& instance) const {
+    const auto fibers = [&](uint32_t p) { return scene_.surfaces.program(p).fibers; };
+    const Mesh* mesh = scene_.shapes[instance.shape]->mesh();
+    return mesh && std::ranges::any_of(instance.materials, fibers) &&
+           std::ranges::any_of(mesh->triangles(), [&](const Mesh::Triangle& triangle) {
+             return fibers(instance.material(triangle.material));
+           });
   }
 
   // add(program): of the AOVs that the camera sees, if there are any.
