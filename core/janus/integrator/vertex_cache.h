@@ -39,8 +39,10 @@ struct CacheBlock {
       states.insert(states.end(), read.begin(), read.end());
     }
     const BsdfView bsdf = v.bsdf();
+    // View-free and connectible: the rest is asked for only where it may cover another one.
+    const bool layered = std::ranges::any_of(bsdf.lobes(), &Lobe::above);
     for (const Lobe& lobe : bsdf.lobes()) {
-      if (!is_delta(lobe)) {  // view-free and connectible: the rest is never asked for
+      if (layered || !is_delta(lobe)) {
         lobes.push_back(lobe);
         ++out.lobe_count;
       }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/shading/bsdf.h"
 
+#include "janus/shading/diffuse_lobes.h"
 #include "janus/shading/fresnel.h"
-#include "janus/shading/hair.h"
+#include "janus/shading/layers.h"
 #include "janus/shading/scatter.h"
 
 namespace janus {
@@ -32,7 +33,10 @@ float refraction_jacobian(vec3 wo, vec3 wi, vec3 n, float eta2_light_over_camera
     if (is_delta(lobe)) {
       continue;
     }
-    const LobeEval e = evaluate_lobe(lobe, ng, d);
+    LobeEval e = evaluate_lobe(lobe, ng, d);
+    if (lobe.above && !is_black(e.f)) {
+      e.f *= covers_transmittance(lobe, ng, d.wo);
+    }
     sum.f += e.f;
     if (is_diffuse(lobe.type)) {
       sum.diffuse += e.f;
@@ -82,8 +86,13 @@ float BsdfView::peak() const {
       return kUnknown;
     }
     if (!is_delta(lobe)) {
-      const float facets = is_ggx(lobe.type) ? 0.25f / sqr(lobe.alpha) : 0.0f;  // D / 4
-      sum += max_component(lobe.weight) * kInvPi * (1.0f + facets);
+      float peak = kInvPi;
+      if (has_facets(lobe.type)) {
+        peak += 0.25f * kInvPi / (lobe.alpha * lobe.alpha_y);  // D / 4
+      } else if (is_toon(lobe.type)) {
+        peak = toon_density(lobe);
+      }
+      sum += max_component(lobe.weight) * peak;
     }
   }
   return sum;
@@ -165,9 +174,9 @@ float BsdfView::refracted_share(vec3 wo, vec3 wi, float max_alpha2) const {
   float all = 0.0f, clear = 0.0f;
   for (const Lobe& lobe : lobes) {
     if (!is_delta(lobe) && janus::transmits(lobe)) {
-      const float f = average(evaluate_lobe(lobe, ng_, d).f);
+      const float f = average(evaluate_lobe(lobe, ng_, d).f * covers_transmittance(lobe, ng_, wo));
       all += f;
-      clear += is_ggx(lobe.type) && sqr(lobe.alpha) <= max_alpha2 ? f : 0.0f;
+      clear += has_facets(lobe.type) && sqr(lobe.alpha) <= max_alpha2 ? f : 0.0f;
     }
   }
   return clear > 0.0f ? clear / all : 0.0f;
@@ -208,8 +217,7 @@ std::optional<BsdfSample> BsdfView::sample_direction(const Lobe& lobe, vec3 from
   if (one_way_ && mode == TransportMode::Importance) {
     return sample;
   }
-  const auto to = is_fiber(lobe.type) ? sample_fiber(lobe, ng_, from, u_event, u)
-                                      : sample_lobe(lobe, ng_, from, u_event, u, mode);
+  const auto to = sample_lobe(lobe, ng_, from, u_event, u, mode);
   if (!to) {
     return sample;
   }
@@ -249,7 +257,7 @@ std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen,
   // the lobe, the ratio of the densities is the jacobian.
   const float own = chosen * event->probability;
   float other = event->one_way || one_way_ ? 0.0f : pmf(lobe, grazing(to_ng)) * event->probability;
-  Rgb color = event->color;
+  Rgb color = event->color * covers_transmittance(lobe, ng_, wo);
   if (reshading_ && !alike(*reshading_, from, to)) {
     reshade_event(lobe, from, u, mode, to, event->probability, color, other);
   }
@@ -299,7 +307,8 @@ void BsdfView::reshade_event(const Lobe& lobe, vec3 from, float u, TransportMode
   if (mode == TransportMode::Importance) {
     const auto event = sample_delta(*found, ng_, from, u, mode);
     color = event && dot(event->direction, to) > 0.9999f
-                ? event->color * (event->probability / probability)
+                ? event->color * covers_transmittance(*found, ng_, to) *
+                      (event->probability / probability)
                 : Rgb(0.0f);
   }
 }

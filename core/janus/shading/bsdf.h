@@ -115,7 +115,7 @@ class BsdfView {
   bool one_way_;
 };
 
-inline constexpr int kMaxLobes = 8;
+inline constexpr int kMaxLobes = 12;
 
 // Owning storage for up to kMaxLobes lobes. A copy costs what its lobes cost.
 class Bsdf {
@@ -136,6 +136,15 @@ class Bsdf {
     }
     lobes_[count_++] = lobe;
     return true;
+  }
+  // Adds one below the lobe at `layer`, which light has to get through first; nothing covers it
+  // where that is below 0.
+  bool add(const Lobe& lobe, int layer) {
+    const bool added = add(lobe);
+    if (added && layer >= 0) {
+      lobes_[count_ - 1].above = static_cast<uint8_t>(count_ - 1 - layer);
+    }
+    return added;
   }
   void clear() { count_ = 0, one_way_ = false; }
 

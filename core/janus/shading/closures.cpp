@@ -3,36 +3,44 @@
 
 #include <algorithm>
 
-#include "janus/shading/fresnel.h"
-#include "janus/shading/node_reader.h"
+#include "janus/shading/closure_parts.h"
+#include "janus/shading/layers.h"
+#include "janus/shading/nodes/rotation.h"
 
 namespace janus {
 
-namespace {
+Rgb ClosureArguments::seen_through(const ShadingResult& result, int layer) const {
+  return layer < 0 || !point_
+             ? Rgb(1.0f)
+             : through(result.bsdf.lobes()[static_cast<size_t>(layer)], point_->ng, point_->view);
+}
 
-using enum SocketType;
-
-// Below it Cycles drops a component.
-constexpr float kCutoff = 1e-5f;
-
-void add_lobe(const ClosureArguments& a, Lobe lobe, ShadingResult& out) {
-  if (!is_black(lobe.weight)) {
-    lobe.normal = a.normal();
-    lobe.bumped = a.bumped();
-    out.bsdf.add(lobe);
+int add_lobe(const ClosureArguments& a, Lobe lobe, ShadingResult& out, vec3 normal, int layer) {
+  if (is_black(lobe.weight)) {
+    return -1;
   }
+  lobe.normal = normal;
+  lobe.bumped = normal != a.surface_normal();
+  return out.bsdf.add(lobe, layer) ? out.bsdf.size() - 1 : -1;
 }
 
-// Cycles' clamp: refraction with an index of 0 is not defined.
-float usable_index(float ior) { return std::max(ior, kCutoff); }
-
-Lobe rough_diffuse(Rgb weight, Rgb albedo, float roughness) {
-  return roughness < kCutoff ? diffuse_lobe(weight) : oren_nayar_lobe(weight, albedo, roughness);
+FacetWidths turned_widths(const ClosureArguments& a, float alpha, float x, float y, int tangent,
+                          int turns) {
+  const vec3 along = a.vector(tangent), n = a.from_behind() ? -a.normal() : a.normal();
+  const float angle = 2.0f * kPi * a.number(turns);
+  return {alpha * x, alpha * y, angle == 0.0f ? along : axis_rotation(n, angle) * along};
 }
 
-// --- What cannot be rendered as asked ------------------------------------------------------------
+FacetWidths stretched_widths(const ClosureArguments& a, float alpha, int anisotropy, int tangent,
+                             int turns) {
+  const float stretch = a.fraction(anisotropy);
+  if (stretch == 0.0f) {
+    return alpha;
+  }
+  const float aspect = std::sqrt(1.0f - 0.9f * stretch);
+  return turned_widths(a, alpha, 1.0f / aspect, aspect, tangent, turns);
+}
 
-// Other distributions than GGX, where it matters.
 void check_distribution(const NodeReader& node, std::string_view fallback) {
   const std::string name = node.property("distribution", fallback);
   if (name != "GGX" && name != "MULTI_GGX" &&
@@ -41,8 +49,9 @@ void check_distribution(const NodeReader& node, std::string_view fallback) {
   }
 }
 
-constexpr LeftOut kThinFilm = {"Thin Film Thickness", 0.0f,
-                               "thin film is not supported yet; it is left out"};
+namespace {
+
+using enum SocketType;
 
 // --- The closures --------------------------------------------------------------------------------
 
@@ -59,19 +68,30 @@ void add(const ClosureArguments& a, ShadingResult& out) {
 }  // namespace diffuse
 
 namespace glossy {
-enum Input { Color, Roughness };
+enum Input { Color, Roughness, Anisotropy, Rotation, Tangent };
 constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 0.8f},
                                   {"Roughness", Float, 0.5f},
                                   {"Anisotropy", Float, 0.0f},
+                                  {"Rotation", Float, 0.0f},
+                                  {"Tangent", Vector, Implicit::Tangent},
                                   {"Normal", Vector, Implicit::Normal}};
+
+// Below 0 the facets are wide along the tangent, above it across.
+FacetWidths widths(const ClosureArguments& a) {
+  const float alpha = sqr(a.fraction(Roughness));
+  const float anisotropy = std::clamp(a.number(Anisotropy), -0.99f, 0.99f);
+  if (std::abs(anisotropy) <= 1e-4f) {
+    return alpha;
+  }
+  const float narrow = 1.0f - std::abs(anisotropy);
+  return anisotropy < 0.0f ? turned_widths(a, alpha, 1.0f / narrow, narrow, Tangent, Rotation)
+                           : turned_widths(a, alpha, narrow, 1.0f / narrow, Tangent, Rotation);
+}
 
 void add(const ClosureArguments& a, ShadingResult& out) {
   const Rgb color = a.positive_color(Color);
-  add_lobe(a, glossy_lobe(a.share() * color, sqr(a.fraction(Roughness)), a.multiscatter(), color),
-           out);
+  add_lobe(a, glossy_lobe(a.share() * color, widths(a), a.multiscatter(), color), out);
 }
-
-constexpr LeftOut kLeftOut[] = {{"Anisotropy", 0.0f, "anisotropy is not supported yet; 0 is used"}};
 
 void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }
 }  // namespace glossy
@@ -142,133 +162,97 @@ void add(const ClosureArguments& a, ShadingResult& out) {
 }
 }  // namespace emission
 
-namespace principled {
+namespace metallic {
 enum Input {
   BaseColor,
-  Metallic,
+  EdgeTint,
+  Index,
+  Extinction,
   Roughness,
-  Ior,
-  Alpha,
-  DiffuseRoughness,
-  SpecularLevel,
-  Transmission,
-  EmissionColor,
-  EmissionStrength
+  Anisotropy,
+  Rotation,
+  NormalInput,
+  Tangent
 };
-constexpr SocketDecl kInputs[] = {{"Base Color", Color, 0.8f},
-                                  {"Metallic", Float, 0.0f},
+constexpr SocketDecl kInputs[] = {{"Base Color", Color, vec3(0.617f, 0.577f, 0.540f)},
+                                  {"Edge Tint", Color, vec3(0.695f, 0.726f, 0.770f)},
+                                  {"IOR", Vector, vec3(2.757f, 2.513f, 2.231f)},
+                                  {"Extinction", Vector, vec3(3.867f, 3.404f, 3.009f)},
                                   {"Roughness", Float, 0.5f},
-                                  {"IOR", Float, 1.5f},
-                                  {"Alpha", Float, 1.0f},
-                                  {"Diffuse Roughness", Float, 0.0f},
-                                  {"Specular IOR Level", Float, 0.5f},
-                                  {"Transmission Weight", Float, 0.0f},
-                                  {"Emission Color", Color, 1.0f},
-                                  {"Emission Strength", Float, 0.0f},
+                                  {"Anisotropy", Float, 0.0f},
+                                  {"Rotation", Float, 0.0f},
                                   {"Normal", Vector, Implicit::Normal},
-                                  {"Subsurface Weight", Float, 0.0f},
-                                  {"Specular Tint", Color, 1.0f},
-                                  {"Anisotropic", Float, 0.0f},
-                                  {"Coat Weight", Float, 0.0f},
-                                  {"Sheen Weight", Float, 0.0f},
-                                  {"Thin Film Thickness", Float, 0.0f},
-                                  {"Thin Wall", Float, 0.0f}};
+                                  {"Tangent", Vector, Implicit::Tangent},
+                                  {"Thin Film Thickness", Float, 0.0f}};
 
-// The index of the specular layer: the level moves it away from the IOR's.
-float layer_index(float ior, float level, float f0) {
-  if (level == 0.5f) {
-    return ior;
-  }
-  const float eta = index_from_fresnel_normal(f0);
-  return ior < 1.0f ? 1.0f / eta : eta;
-}
-
-// No index has such a reflectance, but Cycles' layer does, which then is a mirror that hides what
-// is below it.
-constexpr float kMirror = 0.995f;
-
-// Cycles mixes from the outside in: alpha, metallic, transmission, and a dielectric layer over
-// diffuse. Each takes its part of the weight that the ones before have left.
 void add(const ClosureArguments& a, ShadingResult& out) {
-  const float alpha = a.fraction(Alpha);
-  out.transparency += Rgb(a.share() * (1.0f - alpha));
-  float weight = a.share() * alpha;
-  out.emission +=
-      weight * a.positive_color(EmissionColor) * std::max(a.number(EmissionStrength), 0.0f);
-
-  const Rgb base = a.positive_color(BaseColor), clamped = glm::min(base, Rgb(1.0f));
-  const float ior = usable_index(a.number(Ior)), width = sqr(a.fraction(Roughness));
-
-  const float metallic = a.fraction(Metallic);
-  if (metallic > kCutoff) {
-    add_lobe(a, metal_lobe(Rgb(weight * metallic), clamped, width, a.multiscatter()), out);
-    weight *= 1.0f - metallic;
-  }
-  const float transmission = a.fraction(Transmission);
-  if (transmission > kCutoff) {
-    add_lobe(a,
-             glass_lobe(Rgb(weight * transmission), glm::sqrt(clamped), false, ior, width,
-                        a.multiscatter()),
-             out);
-    weight *= 1.0f - transmission;
-  }
-  if (weight == 0.0f) {
-    return;
-  }
-  const float level = std::max(a.number(SpecularLevel), 0.0f);
-  const float f0 = 2.0f * level * fresnel_normal(ior);
-  if (level != 0.5f && f0 > kMirror) {
-    add_lobe(a, glossy_lobe(Rgb(weight), width, a.multiscatter()), out);
-    return;
-  }
-  const float eta = layer_index(ior, level, f0);
-  Lobe diffuse = rough_diffuse(weight * base, base, a.fraction(DiffuseRoughness));
-  if (eta != 1.0f) {
-    const Lobe layer = specular_lobe(Rgb(weight), eta, width, a.multiscatter());
-    add_lobe(a, layer, out);
-    diffuse = below(diffuse, layer);
-  }
-  add_lobe(a, diffuse, out);
+  const FacetWidths widths =
+      stretched_widths(a, sqr(a.fraction(Roughness)), Anisotropy, Tangent, Rotation);
+  const Rgb weight(a.share());
+  const bool physical = a.setting(1) == 1;
+  add_lobe(a,
+           physical ? conductor_lobe(weight, a.positive_color(Index), a.positive_color(Extinction),
+                                     widths, a.multiscatter())
+                    : metal_lobe(weight, a.positive_color(BaseColor), widths, a.multiscatter(),
+                                 a.positive_color(EdgeTint)),
+           out);
 }
 
-constexpr LeftOut kLeftOut[] = {
-    {"Subsurface Weight", 0.0f, "subsurface scattering is not supported yet; diffuse is used"},
-    {"Coat Weight", 0.0f, "coat is not supported yet; it is left out"},
-    {"Sheen Weight", 0.0f, "sheen is not supported yet; it is left out"},
-    {"Anisotropic", 0.0f, "anisotropy is not supported yet; 0 is used"},
-    {"Specular Tint", 1.0f, "specular tint is not supported yet; white is used"},
-    kThinFilm,
-    {"Thin Wall", 0.0f, "thin walls are not supported yet; a closed surface is rendered"},
-};
+constexpr LeftOut kLeftOut[] = {kThinFilm};
 
 void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }
-}  // namespace principled
+}  // namespace metallic
+
+namespace sheen {
+enum Input { Color, Roughness };
+constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 0.8f},
+                                  {"Roughness", Float, 0.5f},
+                                  {"Normal", Vector, Implicit::Normal}};
+
+void add(const ClosureArguments& a, ShadingResult& out) {
+  const Rgb weight = a.share() * a.positive_color(Color);
+  const float roughness = a.fraction(Roughness);
+  add_lobe(a, a.setting() == 0 ? sheen_lobe(weight, roughness) : velvet_lobe(weight, roughness),
+           out);
+}
+}  // namespace sheen
+
+namespace toon {
+enum Input { Color, Size, Smooth };
+constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 0.8f},
+                                  {"Size", Float, 0.5f},
+                                  {"Smooth", Float, 0.0f},
+                                  {"Normal", Vector, Implicit::Normal}};
+
+void add(const ClosureArguments& a, ShadingResult& out) {
+  add_lobe(a,
+           toon_lobe(a.setting() == 1, a.share() * a.positive_color(Color), a.number(Size),
+                     a.number(Smooth)),
+           out);
+}
+}  // namespace toon
 
 }  // namespace
 
 const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
-    kGlossyClosure{&glossy::add, {.lobes = 1}, glossy::kLeftOut, &glossy::check},
+    kGlossyClosure{
+        &glossy::add, {.lobes = 1, .anisotropy = {glossy::Anisotropy, 0.0f}}, {}, &glossy::check},
     kGlassClosure{&glass::add, {.transmits = true, .lobes = 1}, glass::kLeftOut, &glass::check},
     kRefractionClosure{&refraction::add, {.transmits = true, .lobes = 1}, {}, &refraction::check},
     kTranslucentClosure{&translucent::add, {.transmits = true, .lobes = 1}},
     kTransparentClosure{&transparent::add, {.transparent = true}},
     kHoldoutClosure{&holdout::add, {.holds_out = true}},
     kEmissionClosure{&emission::add, {.emits = true, .emission = {1, 0.0f}}},
-    kPrincipledClosure{&principled::add,
-                       {.emits = true,
-                        .transparent = true,
-                        .transmits = true,
-                        .lobes = 4,
-                        .emission = {principled::EmissionStrength, 0.0f},
-                        .alpha = {principled::Alpha, 1.0f},
-                        .transmission = {principled::Transmission, 0.0f},
-                        .parts = {{principled::Metallic, 0.0f}, {principled::Transmission, 0.0f}}},
-                       principled::kLeftOut,
-                       &principled::check};
+    kMetallicClosure{&metallic::add,
+                     {.lobes = 1, .anisotropy = {metallic::Anisotropy, 0.0f}},
+                     metallic::kLeftOut,
+                     &metallic::check},
+    kSheenClosure{&sheen::add, {.lobes = 1}}, kToonClosure{&toon::add, {.lobes = 1}};
 
 const std::span<const SocketDecl> kDiffuseInputs(diffuse::kInputs), kGlossyInputs(glossy::kInputs),
     kGlassInputs(glass::kInputs), kRefractionInputs(refraction::kInputs),
     kTranslucentInputs(translucent::kInputs), kTransparentInputs(transparent::kInputs),
-    kEmissionInputs(emission::kInputs), kPrincipledInputs(principled::kInputs);
+    kEmissionInputs(emission::kInputs), kMetallicInputs(metallic::kInputs),
+    kSheenInputs(sheen::kInputs), kToonInputs(toon::kInputs);
 
 }  // namespace janus

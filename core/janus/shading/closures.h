@@ -12,7 +12,7 @@ struct Closure {
   uint16_t share;     // its part of Mix and Add
   uint32_t operands;  // one for each input of the node's declaration
   uint16_t normal;    // its own normal, on the viewer's side; kNoNormal: that of the surface
-  uint8_t variant;    // of the node's first setting: the place of its value among the items
+  ClosureSettings settings;
 
   static constexpr uint16_t kNoNormal = UINT16_MAX;
 
@@ -22,21 +22,28 @@ struct Closure {
 // The parameters of a closure at a point.
 class ClosureArguments {
  public:
-  // `normal`: the shading normal where the closure has none of its own; front side. `bumped`: it
-  // has one.
+  // `point`: null for a closure that is the same everywhere; its normal is then set where it is.
   ClosureArguments(const Closure& closure, const float* registers, const uint16_t* operands,
-                   vec3 normal, bool bumped = false)
-      : closure_(closure),
-        registers_(registers),
-        operands_(operands),
-        normal_(normal),
-        bumped_(bumped) {}
+                   const ShadingPoint* point)
+      : closure_(closure), registers_(registers), operands_(operands), point_(point) {
+    if (closure.normal != Closure::kNoNormal) {
+      normal_ = to_front(registers + closure.normal, surface_normal());
+    } else {
+      normal_ = surface_normal();
+    }
+  }
 
   float share() const { return registers_[closure_.share]; }
-  int variant() const { return closure_.variant; }
-  bool multiscatter() const { return variant() == 0; }  // of a distribution
+  int setting(int i = 0) const { return closure_.settings[static_cast<size_t>(i)]; }
+  bool multiscatter() const { return setting() == 0; }  // of a distribution
+  // The closure's normal, and the one of the surface: on the front side.
   vec3 normal() const { return normal_; }
-  bool bumped() const { return bumped_; }
+  vec3 surface_normal() const { return point_ ? point_->ns : vec3(0.0f, 0.0f, 1.0f); }
+  // By the position of the input in the declaration: a normal, which is the closure's where the
+  // input gives none.
+  vec3 normal(int input) const { return to_front(registers_ + operands_[input], normal_); }
+  // Is the surface seen from behind?
+  bool from_behind() const { return point_ && point_->backfacing(); }
   // By the position of the input in the declaration. What is not finite counts as 0.
   float number(int input) const {
     const float x = registers_[operands_[input]];
@@ -49,22 +56,35 @@ class ClosureArguments {
   }
   Rgb positive_color(int input) const { return glm::max(vector(input), Rgb(0.0f)); }
   float fraction(int input) const { return glm::clamp(number(input), 0.0f, 1.0f); }
+  float positive(int input) const { return std::max(number(input), 0.0f); }
+  // The share of light from `layer` of the result, and below, that reaches the viewer.
+  Rgb seen_through(const ShadingResult& result, int layer) const;
 
  private:
+  // From the viewer's side; `fallback` where there is no direction.
+  vec3 to_front(const float* r, vec3 fallback) const {
+    const vec3 facing(r[0], r[1], r[2]);
+    const float length = glm::length(facing);
+    if (!point_ || !(length > 0.0f && std::isfinite(length))) {
+      return fallback;
+    }
+    return point_->facing(facing / length);
+  }
+
   const Closure& closure_;
   const float* registers_;
   const uint16_t* operands_;
+  const ShadingPoint* point_;
   vec3 normal_;
-  bool bumped_;
 };
 
 extern const ClosureDecl kDiffuseClosure, kGlossyClosure, kGlassClosure, kRefractionClosure,
     kTranslucentClosure, kTransparentClosure, kHoldoutClosure, kEmissionClosure, kPrincipledClosure,
-    kHairClosure, kPrincipledHairClosure;
+    kMetallicClosure, kSheenClosure, kToonClosure, kHairClosure, kPrincipledHairClosure;
 
 // The inputs of the closures, in the order in which their functions read them.
 extern const std::span<const SocketDecl> kDiffuseInputs, kGlossyInputs, kGlassInputs,
     kRefractionInputs, kTranslucentInputs, kTransparentInputs, kEmissionInputs, kPrincipledInputs,
-    kHairInputs, kPrincipledHairInputs;
+    kMetallicInputs, kSheenInputs, kToonInputs, kHairInputs, kPrincipledHairInputs;
 
 }  // namespace janus

@@ -21,7 +21,7 @@ vec3 facing_normal(const Lobe& lobe, vec3 ng, vec3 ns, vec3 wo) {
   }
   const bool back = dot(wo, ng) < 0.0f;
   const vec3 n = back ? -lobe.normal : lobe.normal;
-  return is_ggx(lobe.type) ? valid_normal(n, back ? -ng : ng, wo) : n;
+  return has_facets(lobe.type) ? valid_normal(n, back ? -ng : ng, wo) : n;
 }
 
 // Of the lobes that count(lobe) says; `ns` where there are none.
@@ -58,7 +58,7 @@ SurfaceFeatures surface_features(const BsdfView& bsdf, Rgb transparency, vec3 ns
     sum += weight;
     const SurfaceColor color = surface_color(lobe, bsdf.ng(), wo);
     const Rgb albedo = color.diffuse + color.glossy + color.transmission;
-    if (is_ggx(lobe.type) && lobe.alpha <= kSmoothAlpha) {
+    if (has_facets(lobe.type) && lobe.alpha * lobe.alpha_y <= sqr(kSmoothAlpha)) {
       features.smooth += albedo;
     } else {
       features.albedo += albedo;

@@ -50,6 +50,30 @@ inline float schlick(float cos) {
   return sqr(sqr(m)) * m;
 }
 
+// What the tint of a metal's edge scales: cos (1 - cos)^6, largest near 82 degrees (Kutz et al.,
+// "Novel Aspects of the Adobe Standard Material", 2021).
+inline float edge_term(float cos) {
+  return cos * schlick(cos) * std::clamp(1.0f - cos, 0.0f, 1.0f);
+}
+
+// Reflectance of a metal of the index n + i k, in air, for unpolarised light (Born & Wolf,
+// "Principles of Optics", section 14.4.1).
+inline float fresnel_conductor(float cos_i, float n, float k) {
+  const float n2 = sqr(n), k2 = sqr(k), sin2 = 1.0f - sqr(cos_i);
+  const float a = n2 - k2 - sin2, b = std::sqrt(sqr(a) + 4.0f * n2 * k2);
+  const float u2 = std::max(0.0f, 0.5f * (b + a)), v2 = std::max(0.0f, 0.5f * (b - a));
+  const float u = std::sqrt(u2), v = std::sqrt(v2);
+  const auto ratio = [](float x, float y) { return y > 0.0f ? x / y : 0.0f; };
+  const float s = ratio(sqr(cos_i - u) + v2, sqr(cos_i + u) + v2);
+  const float x = (n2 - k2) * cos_i, y = 2.0f * n * k * cos_i;
+  const float p = ratio(sqr(x - u) + sqr(y - v), sqr(x + u) + sqr(y + v));
+  return 0.5f * (s + p);
+}
+inline Rgb fresnel_conductor(float cos_i, Rgb n, Rgb k) {
+  return {fresnel_conductor(cos_i, n.x, k.x), fresnel_conductor(cos_i, n.y, k.y),
+          fresnel_conductor(cos_i, n.z, k.z)};
+}
+
 // Mirrors `w` (pointing away from the surface) about unit `n`.
 inline vec3 reflect_about(vec3 w, vec3 n) { return 2.0f * dot(w, n) * n - w; }
 

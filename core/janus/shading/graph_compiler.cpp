@@ -130,6 +130,8 @@ Value GraphCompiler::implicit(const SocketDecl& socket, uint16_t at) {
       return emit(kAlong, {}, 1, at);
     case Implicit::OnCurve:
       return emit(kOnCurve, {}, 0, at);
+    case Implicit::Tangent:
+      return emit(kRadialTangent[2], {emit(kAttribute, {}, attribute("generated"), at)}, 0, at);
     case Implicit::Strand:
     case Implicit::Value:
       break;

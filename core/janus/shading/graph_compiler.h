@@ -71,7 +71,7 @@ class GraphCompiler {
     const ClosureDecl* decl;
     Value share;
     std::vector<Value> operands;
-    uint8_t variant;  // see Closure
+    ClosureSettings settings;
     bool has_normal;
     Value normal;
   };
@@ -87,6 +87,8 @@ class GraphCompiler {
   void compile_node(const Node& node, uint16_t at);
   std::vector<NodeAt> needs(const Node& node, uint16_t at);
 
+  void read_inputs(const NodeReader& reader, ClosureStep& step);
+  bool neutral(const ClosureStep& step, const ClosureTraits::Input& input) const;
   void add_constant(const NodeReader& reader, const ClosureStep& step);
   void say_if_full(const NodeReader& reader) const;
   // Calls read(value) for each that closures and AOVs read.

@@ -11,16 +11,13 @@ namespace janus {
 
 // --- Closures ------------------------------------------------------------------------------------
 
-void GraphCompiler::closure(const NodeReader& reader, Value share) {
-  require(reader.node(), 0);
-  ClosureStep step{reader.decl().closure, share, {}, 0, false, share};
-  for (const EnumDecl& setting : reader.decl().settings) {  // each says what it does not have
-    const std::string name = reader.property(setting.property, setting.items.front());
-    if (&setting == &reader.decl().settings.front()) {
-      const auto chosen = std::ranges::find(setting.items, name);
-      step.variant = static_cast<uint8_t>(chosen - setting.items.begin());
-    }
-  }
+bool GraphCompiler::neutral(const ClosureStep& step, const ClosureTraits::Input& input) const {
+  const vec3* x = input.index < 0 ? nullptr : as_constant(step.operands[input.index]);
+  return x && x->x == input.neutral;
+}
+
+void GraphCompiler::read_inputs(const NodeReader& reader, ClosureStep& step) {
+  const ClosureTraits& traits = step.decl->traits;
   for (const SocketDecl& socket : reader.decl().inputs) {
     if (socket.implicit == Implicit::Normal) {
       step.operands.push_back(constant(vec3(0.0f), SocketType::Vector));
@@ -28,17 +25,27 @@ void GraphCompiler::closure(const NodeReader& reader, Value share) {
         step.has_normal = true;
         step.normal = input(reader, socket.identifier, 0);
       }
+    } else if (socket.implicit == Implicit::Tangent && neutral(step, traits.anisotropy)) {
+      step.operands.push_back(constant(vec3(0.0f), SocketType::Vector));
     } else {
       step.operands.push_back(input(reader, socket.identifier, 0));
     }
   }
-  const auto neutral = [&](const ClosureTraits::Input& input) {
-    const vec3* x = input.index < 0 ? nullptr : as_constant(step.operands[input.index]);
-    return x && x->x == input.neutral;
-  };
+}
+
+void GraphCompiler::closure(const NodeReader& reader, Value share) {
+  require(reader.node(), 0);
+  ClosureStep step{reader.decl().closure, share, {}, {}, false, share};
+  for (size_t i = 0; i < reader.decl().settings.size(); ++i) {  // each says what it does not have
+    const EnumDecl& setting = reader.decl().settings[i];
+    const std::string name = reader.property(setting.property, setting.items.front());
+    const auto chosen = std::ranges::find(setting.items, name);
+    step.settings.at(i) = static_cast<uint8_t>(chosen - setting.items.begin());
+  }
+  read_inputs(reader, step);
   const ClosureTraits& traits = step.decl->traits;
   program_.fibers |= traits.fibers;
-  program_.transmits |= traits.transmits && !neutral(traits.transmission);
+  program_.transmits |= traits.transmits && !neutral(step, traits.transmission);
   for (const LeftOut& left_out : step.decl->left_out) {
     if (reader.link(left_out.input) || reader.color(left_out.input) != Rgb(left_out.neutral)) {
       reader.warn(std::string(left_out.message));
@@ -47,18 +54,31 @@ void GraphCompiler::closure(const NodeReader& reader, Value share) {
   if (step.decl->check) {
     step.decl->check(reader);
   }
+  const bool glows = traits.emits && !neutral(step, traits.emission);
+  const bool turned = traits.anisotropy.index >= 0 && !neutral(step, traits.anisotropy);
+  bool dimmed = false;
+  for (const ClosureTraits::Input& cover : traits.covers) {
+    dimmed |= glows && cover.index >= 0 && !neutral(step, cover);
+  }
+  if (dimmed) {
+    program_.dependence = Dependence::View;
+  } else if (turned) {
+    program_.dependence = std::max(program_.dependence, Dependence::Side);
+  }
   const auto known = [&](Value v) { return as_constant(v) != nullptr; };
-  if (!step.has_normal && known(share) &&
+  if (!dimmed && !turned && !step.has_normal && known(share) &&
       std::all_of(step.operands.begin(), step.operands.end(), known)) {
     add_constant(reader, step);
     return;
   }
-  program_.varying_emission |= traits.emits && !neutral(traits.emission);
-  program_.varying_transparency |= traits.transparent && !neutral(traits.alpha);
+  program_.varying_emission |= glows;
+  program_.varying_transparency |= traits.transparent && !neutral(step, traits.alpha);
   program_.varying_holdout |= traits.holds_out;
   lobes_ += traits.lobes;
-  for (const ClosureTraits::Input& part : traits.parts) {
-    lobes_ -= neutral(part) ? 1 : 0;
+  for (const auto& optional : {traits.parts, traits.covers}) {
+    for (const ClosureTraits::Input& part : std::span(optional, 2)) {
+      lobes_ -= neutral(step, part) ? 1 : 0;
+    }
   }
   say_if_full(reader);
   closures_.push_back(std::move(step));
@@ -72,12 +92,12 @@ void GraphCompiler::add_constant(const NodeReader& reader, const ClosureStep& st
     registers.insert(registers.end(), {x.x, x.y, x.z});
     return static_cast<uint16_t>(registers.size() - 3);
   };
-  const Closure closure{step.decl, add(step.share), 0, Closure::kNoNormal, step.variant};
+  const Closure closure{step.decl, add(step.share), 0, Closure::kNoNormal, step.settings};
   for (const Value operand : step.operands) {
     places.push_back(add(operand));
   }
   ShadingResult result;
-  step.decl->add({closure, registers.data(), places.data(), vec3(0, 0, 1)}, result);
+  step.decl->add({closure, registers.data(), places.data(), nullptr}, result);
   program_.emission += result.emission;
   program_.transparency += result.transparency;
   program_.holdout += result.holdout;
@@ -227,7 +247,7 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
     }
     const auto normal = static_cast<uint16_t>(place[step.normal.index]);
     program_.closures.push_back({step.decl, static_cast<uint16_t>(place[step.share.index]), first,
-                                 step.has_normal ? normal : Closure::kNoNormal, step.variant});
+                                 step.has_normal ? normal : Closure::kNoNormal, step.settings});
   }
   for (const AovStep& step : aovs_) {
     program_.aovs.push_back({step.aov, static_cast<uint16_t>(place[step.color.index]),

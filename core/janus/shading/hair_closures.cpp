@@ -34,7 +34,7 @@ constexpr SocketDecl kInputs[] = {
 
 void add(const ClosureArguments& a, ShadingResult& out) {
   if (const auto along = direction(a.vector(Tangent))) {
-    const bool transmission = a.variant() == 1;
+    const bool transmission = a.setting() == 1;
     add_lobe(
         hair_lobe(transmission, a.share() * a.positive_color(Color), *along, a.number(RoughnessU),
                   a.number(RoughnessV), a.number(OnCurve) * a.number(Offset)),
@@ -78,7 +78,7 @@ constexpr SocketDecl kInputs[] = {
 enum Parametrization { FromAbsorption, FromMelanin, FromColor };
 
 Rgb absorption(const ClosureArguments& a, float random, float radial_roughness) {
-  switch (a.variant()) {
+  switch (a.setting()) {
     case FromAbsorption:
       return a.vector(Absorption);
     case FromMelanin: {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/shading/lobe.h"
 
+#include "janus/math/pack.h"
 #include "janus/shading/albedo.h"
 #include "janus/shading/fresnel.h"
 #include "janus/shading/scatter.h"
@@ -14,17 +15,22 @@ Lobe lobe(LobeType type, Rgb weight) {
   out.type = type;
   out.weight = weight;
   out.color = Rgb(1.0f);
+  out.edge = Rgb(1.0f);
   out.normal = vec3(0.0f, 0.0f, 1.0f);
   out.ior = 1.0f;
   out.pmf_normal = out.pmf_grazing = 1.0f;
   return out;
 }
 
-Lobe ggx_lobe(LobeType type, Rgb weight, float alpha, bool multiscatter) {
+Lobe facets_lobe(LobeType type, Rgb weight, FacetWidths alpha, bool multiscatter) {
   Lobe out = lobe(type, weight);
-  out.alpha = std::clamp(alpha, 0.0f, 1.0f);
-  if (sqr(out.alpha) <= 2e-10f) {  // Cycles' threshold
-    out.alpha = 0.0f;
+  out.alpha = std::clamp(alpha.x, 0.0f, 1.0f);
+  out.alpha_y = std::clamp(alpha.y, 0.0f, 1.0f);
+  if (out.alpha * out.alpha_y <= 2e-10f) {  // Cycles' threshold
+    out.alpha = out.alpha_y = 0.0f;
+  }
+  if (out.alpha != out.alpha_y) {
+    out.tangent = pack_direction(alpha.tangent);
   }
   out.multiscatter = multiscatter && out.alpha > 0.0f;
   return out;
@@ -35,9 +41,14 @@ void set_index(Lobe& lobe, float ior) {
   lobe.ior = ior;
   if (std::abs(ior - 1.0f) < 1e-4f) {
     lobe.ior = 1.0f;
-    lobe.alpha = 0.0f;
+    lobe.alpha = lobe.alpha_y = 0.0f;
     lobe.multiscatter = false;
   }
+}
+
+// Of facets that reflect `mean` of light from everywhere.
+void set_bounces(Lobe& lobe, Rgb mean) {
+  lobe.edge = multiple_bounces(mean, reflection_albedo_average(roughness(lobe)));
 }
 
 }  // namespace
@@ -53,46 +64,86 @@ Lobe oren_nayar_lobe(Rgb weight, Rgb albedo, float roughness) {
 
 Lobe translucent_lobe(Rgb weight) { return lobe(LobeType::Translucent, weight); }
 
-Lobe glossy_lobe(Rgb weight, float alpha, bool multiscatter, Rgb color) {
-  Lobe out = ggx_lobe(LobeType::Glossy, weight, alpha, multiscatter);
-  out.color = multiple_bounces(color, reflection_albedo_average(std::sqrt(out.alpha)));
+Lobe sheen_lobe(Rgb weight, float roughness, Rgb layer) {
+  Lobe out = lobe(LobeType::Sheen, weight);
+  out.alpha = std::clamp(roughness, 1e-3f, 1.0f);
+  out.color = layer;
   return out;
 }
 
-Lobe metal_lobe(Rgb weight, Rgb f0, float alpha, bool multiscatter) {
-  Lobe out = ggx_lobe(LobeType::Metal, weight, alpha, multiscatter);
+Lobe velvet_lobe(Rgb weight, float sigma) {
+  Lobe out = lobe(LobeType::Velvet, weight);
+  out.sigma = std::clamp(sigma, 0.01f, 1.0f);
+  return out;
+}
+
+Lobe toon_lobe(bool glossy, Rgb weight, float size, float smooth) {
+  Lobe out = lobe(glossy ? LobeType::GlossyToon : LobeType::DiffuseToon, weight);
+  out.alpha = 0.5f * kPi * std::clamp(size, 1e-5f, 1.0f);
+  out.sigma = 0.5f * kPi * std::clamp(smooth, 0.0f, 1.0f);
+  return out;
+}
+
+Lobe glossy_lobe(Rgb weight, FacetWidths alpha, bool multiscatter, Rgb color) {
+  Lobe out = facets_lobe(LobeType::Glossy, weight, alpha, multiscatter);
+  out.color = multiple_bounces(color, reflection_albedo_average(roughness(out)));
+  return out;
+}
+
+Lobe metal_lobe(Rgb weight, Rgb f0, FacetWidths alpha, bool multiscatter, Rgb edge) {
+  constexpr float kEdge = 1.0f / 7.0f;  // the cosine of 82 degrees
+  Lobe out = facets_lobe(LobeType::Metal, weight, alpha, multiscatter);
   out.color = glm::clamp(f0, 0.0f, 1.0f);
+  const Rgb at_edge = out.color + (1.0f - out.color) * schlick(kEdge);
+  out.edge = at_edge * (1.0f - glm::clamp(edge, 0.0f, 1.0f)) / edge_term(kEdge);
   return out;
 }
 
-Lobe specular_lobe(Rgb weight, float eta, float alpha, bool multiscatter) {
-  Lobe out = ggx_lobe(LobeType::Specular, weight, alpha, multiscatter);
+Lobe conductor_lobe(Rgb weight, Rgb n, Rgb k, FacetWidths alpha, bool multiscatter) {
+  Lobe out = facets_lobe(LobeType::Conductor, weight, alpha, multiscatter);
+  out.color = glm::max(n, Rgb(0.0f));
+  out.edge = glm::max(k, Rgb(0.0f));
+  return out;
+}
+
+Lobe specular_lobe(Rgb weight, float eta, FacetWidths alpha, bool multiscatter) {
+  return specular_lobe(weight, eta, Rgb(fresnel_normal(eta)), alpha, multiscatter);
+}
+
+Lobe specular_lobe(Rgb weight, float eta, Rgb f0, FacetWidths alpha, bool multiscatter) {
+  Lobe out = facets_lobe(LobeType::Specular, weight, alpha, multiscatter);
   out.ior = eta;
-  out.color = Rgb(specular_bounces(eta, std::sqrt(out.alpha)));
+  out.color = glm::clamp(f0, 0.0f, 1.0f);
+  const float straight = fresnel_normal(eta);
+  const float position = std::clamp(
+      (fresnel_dielectric_average(eta) - straight) / std::max(1.0f - straight, 1e-6f), 0.0f, 1.0f);
+  set_bounces(out, out.color + (1.0f - out.color) * position);
+  return out;
+}
+
+Lobe coat_lobe(Rgb weight, float eta, float alpha, float share, Rgb tint) {
+  Lobe out = facets_lobe(LobeType::Coat, weight, alpha, true);
+  out.ior = eta;
+  out.sigma = share;
+  out.color = tint;
+  set_bounces(out, Rgb(fresnel_dielectric_average(eta)));
   return out;
 }
 
 Lobe glass_lobe(Rgb weight, Rgb tint, bool tinted_reflection, float ior, float alpha,
-                bool multiscatter) {
-  Lobe out = ggx_lobe(LobeType::Glass, weight, alpha, multiscatter);
+                bool multiscatter, Rgb f0_tint) {
+  Lobe out = facets_lobe(LobeType::Glass, weight, alpha, multiscatter);
   out.color = tint;
+  out.edge = f0_tint;
   out.tinted_reflection = tinted_reflection;
   set_index(out, ior);
   return out;
 }
 
 Lobe refraction_lobe(Rgb weight, float ior, float alpha) {
-  Lobe out = ggx_lobe(LobeType::Refraction, weight, alpha, false);
+  Lobe out = facets_lobe(LobeType::Refraction, weight, alpha, false);
   set_index(out, ior);
   return out;
-}
-
-Lobe below(Lobe lobe, const Lobe& layer) {
-  lobe.layered = true;
-  lobe.alpha = layer.alpha;
-  lobe.ior = layer.ior;
-  lobe.multiscatter = layer.multiscatter;
-  return lobe;
 }
 
 }  // namespace janus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "janus/math/vec.h"
@@ -10,70 +11,109 @@ namespace janus {
 enum class LobeType : uint8_t {
   Diffuse,      // Lambert
   OrenNayar,    // rough diffuse (Fujii's Oren-Nayar with multiple scattering)
+  Sheen,        // fine fibres on a surface. See sheen.h.
+  Velvet,       // Ashikhmin's
+  DiffuseToon,  // a cone around the normal
   Translucent,  // Lambert to the other side
   // Light on a fibre, seen as a whole; all take the whole sphere. See hair.h.
   HairReflection,    // Hair BSDF, Reflection
   HairTransmission,  // and Transmission
   ChiangReflection,  // Principled Hair BSDF of Chiang's model: R,
   ChiangRest,        // and TT, TRT, and all after
-  Glossy,            // GGX reflection without Fresnel term
-  Metal,             // GGX reflection, Fresnel term of Schlick
-  Specular,          // GGX reflection with the Fresnel term of a dielectric
-  Glass,             // GGX reflection and refraction at a dielectric
-  Refraction,        // GGX refraction alone, without Fresnel term
+  GlossyToon,        // a cone around the mirror direction
+  // Of facets; the first ones only reflect.
+  Glossy,      // without Fresnel term
+  Metal,       // Schlick's Fresnel term with a tint of the edge (F82)
+  Conductor,   // Fresnel's own for a metal
+  Specular,    // a dielectric's, moved to another F0
+  Coat,        // a dielectric's
+  Glass,       // reflection and refraction at a dielectric
+  Refraction,  // refraction alone, without Fresnel term
 };
 
 // One term of a Bsdf: plain data in world space, without anything that depends on the view, so that
 // it can be kept in a cache. Made by the functions below; the normal is set where it is placed.
 struct Lobe {
   Rgb weight;  // colour times the closure's share in Mix and Add
-  // Metal: F0; Glass: tint; OrenNayar: albedo; Glossy, Specular: multiscatter tint; Chiang:
-  // absorption by radius
+  // Metal, Specular: F0; Conductor: real part of its index; Glass: tint; OrenNayar: albedo; Glossy:
+  // multiscatter tint; Chiang: absorption by radius; Coat: tint; Sheen: its share as a layer
   Rgb color;
+  // Metal: the F82 term's factor; Conductor: imaginary part of its index; Specular, Coat:
+  // multiscatter tint; Glass: tint of F0
+  Rgb edge;
   // Shading normal on the front side (the side of +Ng), unit. Fibres: their direction, unit.
   vec3 normal;
-  // GGX width; 0: perfectly smooth, a delta. Layered lobes: of the layer above. Fibres: how wide
-  // light spreads along them, Chiang: as a variance.
-  float alpha;
-  float ior;    // index of the back side relative to the front side; Layered: of the layer above
-  float sigma;  // OrenNayar: roughness. Fibres: how wide light spreads around them
-  float tilt;   // fibres: of their scales, radians
+  // Width of the facets' slopes, along and across the tangent; 0: perfectly smooth, a delta.
+  // Sheen: roughness. Toon: half angle. Fibres: `alpha`, how wide light spreads along them, Chiang:
+  // as a variance.
+  float alpha, alpha_y;
+  uint32_t tangent;  // of facets of two widths, packed; see pack_direction()
+  float ior;         // index of the back side relative to the front side
+  // OrenNayar, Velvet: roughness. Fibres: how wide light spreads around them. Toon: the angle over
+  // which it fades. Coat: its share as a layer
+  float sigma;
+  float tilt;  // fibres: of their scales, radians
   // Probability of choosing this lobe when sampling: from pmf_normal for a walk that arrives along
   // Ng to pmf_grazing (see Bsdf::finish).
   float pmf_normal, pmf_grazing;
   LobeType type;
-  bool multiscatter : 1;       // GGX with Cycles' energy scale; Layered: the layer above
-  bool layered : 1;            // attenuated by the reflectance of a Specular layer above
+  uint8_t above;               // how far before this one its layer stands; 0: nothing covers it
+  bool multiscatter : 1;       // facets with Cycles' energy scale
   bool tinted_reflection : 1;  // Glass: `color` tints reflections too
   bool bumped : 1;             // the normal is the closure's own, not the surface's
 };
-static_assert(sizeof(Lobe) == 64);
+static_assert(sizeof(Lobe) == 84);
 
-// GGX lobes are a delta when alpha is 0.
-inline bool is_ggx(LobeType type) { return type >= LobeType::Glossy; }
+// Lobes of facets are a delta when alpha is 0.
+inline bool has_facets(LobeType type) { return type >= LobeType::Glossy; }
 inline bool is_fiber(LobeType type) {
   return type >= LobeType::HairReflection && type <= LobeType::ChiangRest;
 }
+inline bool is_toon(LobeType type) {
+  return type == LobeType::DiffuseToon || type == LobeType::GlossyToon;
+}
 inline bool is_diffuse(LobeType type) { return type <= LobeType::Translucent; }
-inline bool is_delta(const Lobe& lobe) { return is_ggx(lobe.type) && lobe.alpha == 0.0f; }
+inline bool is_delta(const Lobe& lobe) { return has_facets(lobe.type) && lobe.alpha == 0.0f; }
 inline bool transmits(const Lobe& lobe) {
   return lobe.type >= LobeType::Glass || lobe.type == LobeType::Translucent || is_fiber(lobe.type);
 }
+// The roughness that tables of albedos are made for: the root of the facets' width.
+inline float roughness(const Lobe& lobe) {
+  return std::sqrt(lobe.alpha == lobe.alpha_y ? lobe.alpha : std::sqrt(lobe.alpha * lobe.alpha_y));
+}
 
-// What the compiler makes closures of. `alpha` is the square of a node's roughness; what Cycles
-// takes for smooth becomes a delta. `multiscatter`: Cycles' Multiscatter GGX.
+// Widths of facets: squares of a node's roughness. What Cycles takes for smooth becomes a delta.
+struct FacetWidths {
+  float x, y;
+  vec3 tangent = vec3(0.0f);  // of x, unit; does not matter where the widths are the same
+
+  FacetWidths(float alpha) : x(alpha), y(alpha) {}  // NOLINT: a width is what most surfaces have
+  FacetWidths(float alpha_x, float alpha_y, vec3 along) : x(alpha_x), y(alpha_y), tangent(along) {}
+};
+
+// What the compiler makes closures of. `multiscatter`: Cycles' Multiscatter GGX.
 Lobe diffuse_lobe(Rgb weight);
 Lobe oren_nayar_lobe(Rgb weight, Rgb albedo, float roughness);
 Lobe translucent_lobe(Rgb weight);
+// `layer`: what it is of a layer that covers all, beside its share in Mix and Add.
+Lobe sheen_lobe(Rgb weight, float roughness, Rgb layer = Rgb(1.0f));
+Lobe velvet_lobe(Rgb weight, float sigma);
+// `size`, `smooth`: parts of a right angle.
+Lobe toon_lobe(bool glossy, Rgb weight, float size, float smooth);
 // `color`: what multiple bounces between the facets are tinted with.
-Lobe glossy_lobe(Rgb weight, float alpha, bool multiscatter = false, Rgb color = Rgb(1.0f));
-Lobe metal_lobe(Rgb weight, Rgb f0, float alpha, bool multiscatter = false);
-// `eta` holds for both sides, as in Cycles.
-Lobe specular_lobe(Rgb weight, float eta, float alpha, bool multiscatter = false);
+Lobe glossy_lobe(Rgb weight, FacetWidths alpha, bool multiscatter = false, Rgb color = Rgb(1.0f));
+// `edge`: tint of what Schlick's term has at 82 degrees (Kutz et al. 2021).
+Lobe metal_lobe(Rgb weight, Rgb f0, FacetWidths alpha, bool multiscatter = false,
+                Rgb edge = Rgb(1.0f));
+Lobe conductor_lobe(Rgb weight, Rgb n, Rgb k, FacetWidths alpha, bool multiscatter = false);
+// `eta` holds for both sides, as in Cycles; `f0`: reflectance straight on, for that of `eta`.
+Lobe specular_lobe(Rgb weight, float eta, FacetWidths alpha, bool multiscatter = false);
+Lobe specular_lobe(Rgb weight, float eta, Rgb f0, FacetWidths alpha, bool multiscatter = false);
+// `share`: as a layer; `tint`: of what goes through it straight.
+Lobe coat_lobe(Rgb weight, float eta, float alpha, float share, Rgb tint);
+// `f0_tint`: of the reflectance straight on.
 Lobe glass_lobe(Rgb weight, Rgb tint, bool tinted_reflection, float ior, float alpha,
-                bool multiscatter = false);
+                bool multiscatter = false, Rgb f0_tint = Rgb(1.0f));
 Lobe refraction_lobe(Rgb weight, float ior, float alpha);
-// `lobe` (Diffuse or OrenNayar) as it is below `layer` (Specular).
-Lobe below(Lobe lobe, const Lobe& layer);
 
 }  // namespace janus

@@ -4,6 +4,7 @@
 // it; a node that is not in it is named as unsupported.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,7 @@ enum class Implicit {
   Along,    // on curves, their direction; elsewhere the first edge of the triangle
   Beside,   // the same, but elsewhere the second edge
   OnCurve,  // 1 on curves, else 0
+  Tangent,  // around the object's Z axis, where the closure has facets of two widths
   Strand,   // a number of the curve's own, in [0, 1]; elsewhere the default
 };
 
@@ -78,6 +80,9 @@ std::vector<std::string_view> names_of(const Mode (&modes)[N]) {
   return names;
 }
 
+// Of a closure's node, the places of its settings' values among their items.
+using ClosureSettings = std::array<uint8_t, 2>;
+
 // What a closure can add to a surface, besides lobes.
 struct ClosureTraits {
   // An input, by its position, and the value at which what it stands for is not there.
@@ -87,9 +92,10 @@ struct ClosureTraits {
   };
   bool emits = false, transparent = false, transmits = false, holds_out = false, fibers = false;
   int lobes = 0;  // at most
-  // Which may make it dark, opaque or reflecting after all.
-  Input emission{}, alpha{}, transmission{};
-  Input parts[2]{};  // each with a lobe
+  // Which may make it dark, opaque or reflecting after all, or its facets as wide along as across.
+  Input emission{}, alpha{}, transmission{}, anisotropy{};
+  Input parts[2]{};   // each with a lobe
+  Input covers[2]{};  // the same, and they dim what glows below them
 };
 
 // An input that a closure leaves out, unless it is neutral, and what is said then.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "janus/math/hash.h"
+#include "janus/shading/nodes/rotation.h"
 #include "janus/shading/operation.h"
 
 namespace janus {
@@ -30,6 +31,24 @@ inline float read_strand(const Context& c, float elsewhere) {
              ? static_cast<float>(jenkins_hash(c.point.triangle.face, 2)) / 4294967295.0f
              : elsewhere;
 }
+
+// From a direction of the object to one on its surface.
+inline vec3 read_on_surface(const Context& c, vec3 direction) {
+  const vec3 n = c.point.facing(c.point.ns);
+  const vec3 t = c.point.object->normal_to_world * direction;
+  return cross(n, safe_normalize(cross(safe_normalize(t), n)));
+}
+// Around an axis of the object's box; the operand is the place in it ("generated").
+inline constexpr Operation kRadialTangent[] = {
+    by_side<[](const Context& c, vec3 generated) {
+      return read_on_surface(c, vec3(0.0f, 0.5f - generated.z, generated.y - 0.5f));
+    }>,
+    by_side<[](const Context& c, vec3 generated) {
+      return read_on_surface(c, vec3(0.5f - generated.z, 0.0f, generated.x - 0.5f));
+    }>,
+    by_side<[](const Context& c, vec3 generated) {
+      return read_on_surface(c, vec3(0.5f - generated.y, generated.x - 0.5f, 0.0f));
+    }>};
 
 inline constexpr Operation kAlong = at_point<&read_along>;
 inline constexpr Operation kOnCurve = at_point<&read_on_curve>;

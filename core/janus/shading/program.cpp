@@ -47,16 +47,7 @@ void Program::run(const ShadingPoint& point, ShadingResult& result) const {
       continue;
     }
     const uint16_t* in = operands.data() + closure.operands;
-    vec3 normal = point.ns;
-    if (closure.normal != Closure::kNoNormal) {
-      const float* n = r + closure.normal;
-      const vec3 facing(n[0], n[1], n[2]);
-      const float length = glm::length(facing);
-      if (length > 0.0f && std::isfinite(length)) {
-        normal = point.facing(facing / length);  // from the viewer's side to the front
-      }
-    }
-    closure.decl->add({closure, r, in, normal, normal != point.ns}, result);
+    closure.decl->add({closure, r, in, &point}, result);
   }
   if (result.bsdf.size() > placed) {
     result.bsdf.finish();

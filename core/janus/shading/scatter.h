@@ -54,19 +54,11 @@ std::optional<DeltaEvent> sample_delta(const Lobe& lobe, vec3 ng, vec3 from, flo
 // Albedo estimate for a direction at cosine `cos`: what lobes are chosen by.
 float estimated_albedo(const Lobe& lobe, float cos);
 
-// Share of light that reaches a layered lobe, as seen from a camera direction at cosine `cos_o`.
-float layer_transmittance(const Lobe& lobe, float cos_o);
-
-// What light keeps of its colour that a GGX lobe scatters, over all its bounces between facets, as
-// seen from a camera direction at cosine `cos_o`; `eta`: index of the far side.
-Rgb multiscatter_color(const Lobe& lobe, float cos_o, float eta);
-
 // Colour of the light that leaves after several bounces between facets, for single bounces of
 // average reflectance `fss` and facets of average albedo `average` (Kulla & Conty 2017). The series
 // has no sum for colours that gain more than is lost: it is limited there.
 inline Rgb multiple_bounces(Rgb fss, float average) {
   return fss * average / glm::max(1.0f - fss * (1.0f - average), Rgb(0.1f));
 }
-float specular_bounces(float eta, float rough);
 
 }  // namespace janus

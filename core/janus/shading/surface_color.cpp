@@ -2,9 +2,11 @@
 #include "janus/shading/surface_color.h"
 
 #include "janus/shading/albedo.h"
+#include "janus/shading/facet_lobes.h"
 #include "janus/shading/fresnel.h"
 #include "janus/shading/hair.h"
-#include "janus/shading/scatter.h"
+#include "janus/shading/layers.h"
+#include "janus/shading/sheen.h"
 
 namespace janus {
 
@@ -19,31 +21,38 @@ SurfaceColor surface_color(const Lobe& lobe, vec3 front, vec3 wo) {
   const bool back = dot(wo, front) < 0.0f;
   const vec3 ng = back ? -front : front;
   const vec3 n = back ? -lobe.normal : lobe.normal;
-  if (is_diffuse(lobe.type)) {
-    color.diffuse = lobe.weight * (lobe.layered ? layer_transmittance(lobe, dot(wo, n)) : 1.0f);
+  const Rgb lit = lobe.weight * covers_transmittance(lobe, front, wo);
+  if (!has_facets(lobe.type)) {
+    const float share =
+        lobe.type == LobeType::Sheen ? SheenLobe(lobe.alpha, dot(wo, n)).albedo : 1.0f;
+    (is_diffuse(lobe.type) ? color.diffuse : color.glossy) = share * lit;
     return color;
   }
   const float cos = dot(wo, valid_normal(n, ng, wo));
   const float eta = back ? 1.0f / lobe.ior : lobe.ior;
-  const Rgb weight =
-      lobe.weight *
-      (lobe.type == LobeType::Specular ? Rgb(1.0f) : multiscatter_color(lobe, cos, eta));
+  const bool layer = lobe.type == LobeType::Specular || lobe.type == LobeType::Coat;
+  const Rgb weight = lit * (layer ? Rgb(1.0f) : multiscatter_color(lobe, cos, eta));
   switch (lobe.type) {
     case LobeType::Metal:
-      color.glossy = weight * (lobe.color + (1.0f - lobe.color) *
-                                                schlick_reflectance(std::sqrt(lobe.alpha), cos));
+      color.glossy =
+          weight * (lobe.color + (1.0f - lobe.color) * schlick_reflectance(roughness(lobe), cos));
+      break;
+    case LobeType::Conductor:
+      color.glossy = weight * reflectance(lobe, cos);
       break;
     case LobeType::Specular:
-      color.glossy = weight * (1.0f - layer_transmittance(lobe, cos));
+    case LobeType::Coat:
+      color.glossy = weight * layer_reflectance(lobe, cos);
       break;
     case LobeType::Glass: {
       // As in Cycles, only the reflection of Principled's glass is that of a rough one.
-      const float smooth = fresnel_closure(cos, eta);
-      const float reflected = lobe.tinted_reflection || eta <= 1.0f
-                                  ? smooth
-                                  : dielectric_reflectance(std::sqrt(lobe.alpha), cos, eta);
-      color.glossy = weight * reflected * (lobe.tinted_reflection ? lobe.color : Rgb(1.0f));
-      color.transmission = weight * (1.0f - smooth) * lobe.color;
+      const GlassEvents events(lobe, cos, eta);
+      color.glossy = weight * events.reflected;
+      color.transmission = weight * events.transmitted;
+      if (!lobe.tinted_reflection && eta > 1.0f) {
+        const Rgb f0 = glm::min(fresnel_normal(eta) * lobe.edge, Rgb(1.0f));
+        color.glossy = weight * (f0 + (1.0f - f0) * dielectric_position(roughness(lobe), cos, eta));
+      }
       break;
     }
     case LobeType::Refraction:

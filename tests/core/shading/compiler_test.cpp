@@ -110,7 +110,7 @@ TEST(Compiler, Principled) {
   EXPECT_FLOAT_EQ(plain.program.lobes[0].alpha, 0.25f);
   EXPECT_TRUE(plain.program.lobes[0].multiscatter);
   EXPECT_EQ(plain.program.lobes[1].type, LobeType::Diffuse);
-  EXPECT_TRUE(plain.program.lobes[1].layered);
+  EXPECT_EQ(plain.program.lobes[1].above, 1);
   EXPECT_EQ(plain.program.lobes[1].weight, base);
   EXPECT_EQ(plain.program.emission, Rgb(0));
 
@@ -137,7 +137,7 @@ TEST(Compiler, Principled) {
   // No layer, nothing to attenuate: level 0 has the index 1.
   const Compiled bare = principled({{"Specular IOR Level", 0.0f}});
   ASSERT_EQ(bare.program.lobes.size(), 1u);
-  EXPECT_FALSE(bare.program.lobes[0].layered);
+  EXPECT_EQ(bare.program.lobes[0].above, 0);
   // Level 1 doubles F0.
   const Compiled shiny = principled({{"Specular IOR Level", 1.0f}});
   const float eta = shiny.program.lobes[0].ior;
@@ -145,10 +145,8 @@ TEST(Compiler, Principled) {
 }
 
 TEST(Compiler, PrincipledNamesWhatIsLeftOut) {
-  const std::pair<const char*, const char*> limits[] = {
-      {"Subsurface Weight", "subsurface"}, {"Coat Weight", "coat"},
-      {"Sheen Weight", "sheen"},           {"Thin Film Thickness", "thin film"},
-      {"Anisotropic", "anisotropy"},       {"Specular Tint", "specular tint"}};
+  const std::pair<const char*, const char*> limits[] = {{"Subsurface Weight", "subsurface"},
+                                                        {"Thin Film Thickness", "thin film"}};
   for (const auto& [socket, message] : limits) {
     EXPECT_TRUE(warned(compiled(single("BSDF_PRINCIPLED", {{socket, 0.5f}})), "Shader", message));
     EXPECT_TRUE(
@@ -156,9 +154,50 @@ TEST(Compiler, PrincipledNamesWhatIsLeftOut) {
   }
   EXPECT_TRUE(warned(compiled(single("BSDF_GLASS", {{"Thin Film Thickness", 300.0f}})), "Shader",
                      "thin film"));
-  EXPECT_TRUE(
-      warned(compiled(single("BSDF_GLOSSY", {{"Anisotropy", 0.5f}})), "Shader", "anisotropy"));
-  EXPECT_TRUE(warned(compiled(single("BSDF_TOON", {})), "Shader", "BSDF_TOON"));
+  EXPECT_TRUE(warned(compiled(single("SUBSURFACE_SCATTERING", {})), "Shader", "SUBSURFACE"));
+}
+
+// Sheen over coat over all else: each knows what covers it.
+TEST(Compiler, PrincipledCovers) {
+  const auto lobes = [](std::map<std::string, NodeInput> inputs) {
+    const Compiled result = compiled(single("BSDF_PRINCIPLED", std::move(inputs)));
+    EXPECT_TRUE(result.diagnostics.empty());
+    EXPECT_TRUE(result.program.constant());
+    return result.program.lobes;
+  };
+  const auto all = lobes({{"Sheen Weight", 0.5f},
+                          {"Coat Weight", 0.8f},
+                          {"Metallic", 0.5f},
+                          {"Transmission Weight", 0.5f}});
+  const std::pair<LobeType, int> expected[] = {{LobeType::Sheen, 0},    {LobeType::Coat, 1},
+                                               {LobeType::Metal, 1},    {LobeType::Glass, 2},
+                                               {LobeType::Specular, 3}, {LobeType::Diffuse, 1}};
+  ASSERT_EQ(all.size(), std::size(expected));
+  for (size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(std::pair(all[i].type, int{all[i].above}), expected[i]) << i;
+  }
+  EXPECT_FLOAT_EQ(all[0].weight.x, 0.5f);
+  EXPECT_FLOAT_EQ(all[1].weight.x, 0.8f);
+  EXPECT_FLOAT_EQ(all[1].sigma, 0.8f);
+  EXPECT_EQ(lobes({{"Coat Weight", -1.0f}}).size(), 2u);
+  // What glows below a cover depends on the view; on nothing else does it.
+  const Compiled glow =
+      compiled(single("BSDF_PRINCIPLED", {{"Coat Weight", 1.0f}, {"Emission Strength", 2.0f}}));
+  EXPECT_EQ(glow.program.dependence, Dependence::View);
+}
+
+// Facets of two widths need a tangent, and nothing else does.
+TEST(Compiler, AnisotropyReadsATangent) {
+  for (const auto& [type, input] :
+       {std::pair("BSDF_PRINCIPLED", "Anisotropic"), std::pair("BSDF_GLOSSY", "Anisotropy"),
+        std::pair("BSDF_METALLIC", "Anisotropy")}) {
+    const Program turned = compiled(single(type, {{input, 0.5f}})).program;
+    EXPECT_FALSE(turned.constant()) << type;
+    EXPECT_EQ(turned.attributes.size(), 1u) << type;
+    const Program round = compiled(single(type, {{input, 0.0f}})).program;
+    EXPECT_TRUE(round.constant()) << type;
+    EXPECT_TRUE(round.attributes.empty()) << type;
+  }
 }
 
 TEST(Compiler, OmittedInputsTakeTheDeclaredDefaults) {

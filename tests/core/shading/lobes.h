@@ -18,6 +18,12 @@ inline Lobe placed(Lobe lobe, vec3 normal) {
   return lobe;
 }
 
+// Covered by the lobe that stands `above` places before it.
+inline Lobe below(Lobe lobe, int above = 1) {
+  lobe.above = static_cast<uint8_t>(above);
+  return lobe;
+}
+
 inline Bsdf make(const std::vector<Lobe>& lobes) {
   Bsdf bsdf;
   for (const Lobe& lobe : lobes) {

@@ -25,6 +25,12 @@ constexpr std::string_view kGgx[] = {"MULTI_GGX", "GGX"}, kOneGgx[] = {"GGX"},
 constexpr EnumDecl kDistribution[] = {{"distribution", kGgx, kOthers}},
                    kRefraction[] = {{"distribution", kOneGgx, kOthers}};
 
+constexpr std::string_view kFresnelTypes[] = {"F82", "PHYSICAL_CONDUCTOR"},
+                           kSheens[] = {"MICROFIBER", "ASHIKHMIN"},
+                           kToons[] = {"DIFFUSE", "GLOSSY"};
+constexpr EnumDecl kMetallic[] = {{"distribution", kGgx, kOthers}, {"fresnel_type", kFresnelTypes}},
+                   kSheen[] = {{"distribution", kSheens}}, kToon[] = {{"component", kToons}};
+
 constexpr std::string_view kComponents[] = {"Reflection", "Transmission"},
                            kParametrizations[] = {"ABSORPTION", "MELANIN", "COLOR"},
                            kModels[] = {"CHIANG"};
@@ -50,6 +56,9 @@ std::span<const NodeDecl> closure_nodes() {
       {"BACKGROUND", kEmissionInputs, kBackground, nullptr, &kEmissionClosure},
       {"BSDF_PRINCIPLED", kPrincipledInputs, kBsdf, nullptr, &kPrincipledClosure, MixOp::None,
        kDistribution},
+      {"BSDF_METALLIC", kMetallicInputs, kBsdf, nullptr, &kMetallicClosure, MixOp::None, kMetallic},
+      {"BSDF_SHEEN", kSheenInputs, kBsdf, nullptr, &kSheenClosure, MixOp::None, kSheen},
+      {"BSDF_TOON", kToonInputs, kBsdf, nullptr, &kToonClosure, MixOp::None, kToon},
       {"BSDF_HAIR", kHairInputs, kBsdf, nullptr, &kHairClosure, MixOp::None, kComponent},
       {"BSDF_HAIR_PRINCIPLED", kPrincipledHairInputs, kBsdf, nullptr, &kPrincipledHairClosure,
        MixOp::None, kPrincipledHair},

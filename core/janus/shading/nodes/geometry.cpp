@@ -113,24 +113,7 @@ constexpr Operation kIncoming = by_view<[](const Context& c) { return c.point.vi
 constexpr Operation kBackfacing =
     by_side<[](const Context& c) { return c.point.backfacing() ? 1.0f : 0.0f; }>;
 
-// From a direction of the object to one on its surface.
-vec3 on_surface(const Context& c, vec3 direction) {
-  const vec3 n = c.point.facing(c.point.ns);
-  const vec3 t = c.point.object->normal_to_world * direction;
-  return cross(n, safe_normalize(cross(safe_normalize(t), n)));
-}
-// Around an axis of the object's box.
-constexpr Operation kRadialTangent[] = {
-    by_side<[](const Context& c, vec3 generated) {
-      return on_surface(c, vec3(0.0f, 0.5f - generated.z, generated.y - 0.5f));
-    }>,
-    by_side<[](const Context& c, vec3 generated) {
-      return on_surface(c, vec3(0.5f - generated.z, 0.0f, generated.x - 0.5f));
-    }>,
-    by_side<[](const Context& c, vec3 generated) {
-      return on_surface(c, vec3(0.5f - generated.y, generated.x - 0.5f, 0.0f));
-    }>};
-constexpr Operation kTangentOnSurface = by_side<&on_surface>;
+constexpr Operation kTangentOnSurface = by_side<&read_on_surface>;
 
 Value radial_tangent(NodeEmitter& e, int axis) {
   NodeEmitter here = e.unshifted();

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What several closures have in common.
+#pragma once
+
+#include "janus/shading/closures.h"
+#include "janus/shading/node_reader.h"
+
+namespace janus {
+
+// Below it Cycles drops a component.
+inline constexpr float kCutoff = 1e-5f;
+
+// Adds a lobe with a normal, below the lobe `layer` of the result (-1: nothing covers it). Returns
+// its place, -1 where there is none.
+int add_lobe(const ClosureArguments& a, Lobe lobe, ShadingResult& out, vec3 normal, int layer = -1);
+inline int add_lobe(const ClosureArguments& a, const Lobe& lobe, ShadingResult& out,
+                    int layer = -1) {
+  return add_lobe(a, lobe, out, a.normal(), layer);
+}
+
+// Cycles' clamp: refraction with an index of 0 is not defined.
+inline float usable_index(float ior) { return std::max(ior, kCutoff); }
+
+inline Lobe rough_diffuse(Rgb weight, Rgb albedo, float roughness) {
+  return roughness < kCutoff ? diffuse_lobe(weight) : oren_nayar_lobe(weight, albedo, roughness);
+}
+
+// Facets whose widths are `alpha` times `x` and `y` along and across the tangent, the input
+// `tangent` turned about the normal by the input `turns`.
+FacetWidths turned_widths(const ClosureArguments& a, float alpha, float x, float y, int tangent,
+                          int turns);
+// The same by Principled's anisotropy, which only stretches them along the tangent.
+FacetWidths stretched_widths(const ClosureArguments& a, float alpha, int anisotropy, int tangent,
+                             int turns);
+
+// Names other distributions than GGX, where it matters.
+void check_distribution(const NodeReader& node, std::string_view fallback);
+
+inline constexpr LeftOut kThinFilm = {"Thin Film Thickness", 0.0f,
+                                      "thin film is not supported yet; it is left out"};
+
+}  // namespace janus

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Lobes that scatter over a wide angle: Diffuse, OrenNayar, Translucent, Sheen, Velvet; and Toon,
+// which draws cones of light.
+#pragma once
+
+#include "janus/shading/scatter.h"
+
+namespace janus {
+
+// As evaluate_lobe() and sample_lobe().
+LobeEval evaluate_diffuse(const Lobe& lobe, vec3 ng, const Directions& d);
+std::optional<vec3> sample_diffuse(const Lobe& lobe, vec3 ng, vec3 from, vec2 u,
+                                   TransportMode mode);
+LobeEval evaluate_glossy_toon(const Lobe& lobe, const Directions& d);
+std::optional<vec3> sample_glossy_toon(const Lobe& lobe, vec3 ng, vec3 from, vec2 u);
+
+// The largest density of a cone of a Toon lobe.
+float toon_density(const Lobe& lobe);
+
+}  // namespace janus

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Lobes of GGX facets: reflection at a metal, a dielectric, or a coat; and glass.
+#pragma once
+
+#include "janus/shading/scatter.h"
+
+namespace janus {
+
+// As evaluate_lobe(), sample_lobe() and sample_delta().
+LobeEval evaluate_facets(const Lobe& lobe, vec3 ng, const Directions& d);
+std::optional<vec3> sample_facets(const Lobe& lobe, vec3 ng, vec3 from, float u_event, vec2 u,
+                                  TransportMode mode);
+
+// Fresnel term of a facet under the cosine `cos`, for lobes that only reflect.
+Rgb reflectance(const Lobe& lobe, float cos);
+
+// Reflection and refraction at a facet of a Glass or Refraction lobe: what they keep, and the
+// probability of choosing reflection. Both are the same from both ends of a refraction. `eta`:
+// index of the far side.
+struct GlassEvents {
+  Rgb reflected, transmitted;
+  float pmf_reflect;
+
+  GlassEvents(const Lobe& lobe, float cos, float eta);
+};
+
+// What light keeps of its colour that a lobe of facets scatters, over all its bounces between
+// facets, as seen from a camera direction at cosine `cos_o`; `eta`: index of the far side.
+Rgb multiscatter_color(const Lobe& lobe, float cos_o, float eta);
+
+}  // namespace janus

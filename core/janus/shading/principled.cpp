@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The Principled BSDF: from the outside in, sheen, coat, metal, glass, a dielectric layer, diffuse.
+#include <algorithm>
+
+#include "janus/shading/closure_parts.h"
+#include "janus/shading/fresnel.h"
+
+namespace janus {
+
+namespace {
+
+using enum SocketType;
+
+namespace principled {
+enum Input {
+  BaseColor,
+  Metallic,
+  Roughness,
+  Ior,
+  Alpha,
+  DiffuseRoughness,
+  SpecularLevel,
+  SpecularTint,
+  Anisotropic,
+  AnisotropicRotation,
+  Tangent,
+  Transmission,
+  CoatWeight,
+  CoatRoughness,
+  CoatIor,
+  CoatTint,
+  CoatNormal,
+  SheenWeight,
+  SheenRoughness,
+  SheenTint,
+  EmissionColor,
+  EmissionStrength
+};
+constexpr SocketDecl kInputs[] = {{"Base Color", Color, 0.8f},
+                                  {"Metallic", Float, 0.0f},
+                                  {"Roughness", Float, 0.5f},
+                                  {"IOR", Float, 1.5f},
+                                  {"Alpha", Float, 1.0f},
+                                  {"Diffuse Roughness", Float, 0.0f},
+                                  {"Specular IOR Level", Float, 0.5f},
+                                  {"Specular Tint", Color, 1.0f},
+                                  {"Anisotropic", Float, 0.0f},
+                                  {"Anisotropic Rotation", Float, 0.0f},
+                                  {"Tangent", Vector, Implicit::Tangent},
+                                  {"Transmission Weight", Float, 0.0f},
+                                  {"Coat Weight", Float, 0.0f},
+                                  {"Coat Roughness", Float, 0.03f},
+                                  {"Coat IOR", Float, 1.5f},
+                                  {"Coat Tint", Color, 1.0f},
+                                  {"Coat Normal", Vector, 0.0f},  // 0: as Normal
+                                  {"Sheen Weight", Float, 0.0f},
+                                  {"Sheen Roughness", Float, 0.5f},
+                                  {"Sheen Tint", Color, 1.0f},
+                                  {"Emission Color", Color, 1.0f},
+                                  {"Emission Strength", Float, 0.0f},
+                                  {"Normal", Vector, Implicit::Normal},
+                                  {"Subsurface Weight", Float, 0.0f},
+                                  {"Thin Film Thickness", Float, 0.0f},
+                                  {"Thin Wall", Float, 0.0f}};
+
+// What covers all else; -1: nothing does.
+int add_covers(const ClosureArguments& a, float weight, ShadingResult& out) {
+  const vec3 coat_normal = a.normal(CoatNormal);
+  const float coat = a.positive(CoatWeight), sheen = a.positive(SheenWeight);
+  int layer = -1;
+  if (sheen > kCutoff) {
+    const Rgb share = sheen * a.positive_color(SheenTint);
+    const vec3 between = glm::mix(a.normal(), coat_normal, std::min(coat, 1.0f));
+    const float length = glm::length(between);
+    layer = add_lobe(a, sheen_lobe(weight * share, a.fraction(SheenRoughness), share), out,
+                     length > 0.0f ? between / length : a.normal());
+  }
+  if (coat > kCutoff) {
+    const Lobe lobe = coat_lobe(Rgb(weight * coat), std::max(a.number(CoatIor), 1.0f),
+                                sqr(a.fraction(CoatRoughness)), coat, a.positive_color(CoatTint));
+    layer = add_lobe(a, lobe, out, coat_normal, layer);
+  }
+  return layer;
+}
+
+// The index of the specular layer: the level moves it away from the IOR's.
+float layer_index(float ior, float level, float f0) {
+  if (level == 0.5f) {
+    return ior;
+  }
+  const float eta = index_from_fresnel_normal(f0);
+  return ior < 1.0f ? 1.0f / eta : eta;
+}
+
+// Cycles mixes from the outside in: alpha, the covers, metallic, transmission, and a dielectric
+// layer over diffuse. Each takes its part of the weight that the ones before have left.
+void add(const ClosureArguments& a, ShadingResult& out) {
+  const float alpha = a.fraction(Alpha);
+  out.transparency += Rgb(a.share() * (1.0f - alpha));
+  float weight = a.share() * alpha;
+  const int covers = add_covers(a, weight, out);
+  out.emission += weight * a.seen_through(out, covers) * a.positive_color(EmissionColor) *
+                  a.positive(EmissionStrength);
+
+  const Rgb base = a.positive_color(BaseColor), clamped = glm::min(base, Rgb(1.0f));
+  const Rgb tint = a.positive_color(SpecularTint);
+  const float ior = usable_index(a.number(Ior)), width = sqr(a.fraction(Roughness));
+  const FacetWidths widths = stretched_widths(a, width, Anisotropic, Tangent, AnisotropicRotation);
+
+  const float metallic = a.fraction(Metallic);
+  if (metallic > kCutoff) {
+    add_lobe(a, metal_lobe(Rgb(weight * metallic), clamped, widths, a.multiscatter(), tint), out,
+             covers);
+    weight *= 1.0f - metallic;
+  }
+  const float transmission = a.fraction(Transmission);
+  if (transmission > kCutoff) {
+    add_lobe(a,
+             glass_lobe(Rgb(weight * transmission), glm::sqrt(clamped), false, ior, width,
+                        a.multiscatter(), tint),
+             out, covers);
+    weight *= 1.0f - transmission;
+  }
+  if (weight == 0.0f) {
+    return;
+  }
+  const float level = a.positive(SpecularLevel);
+  const float f0 = level == 0.5f ? fresnel_normal(ior) : 2.0f * level * fresnel_normal(ior);
+  const float eta = layer_index(ior, level, f0);
+  int layer = covers;
+  if (eta != 1.0f) {
+    layer = add_lobe(a, specular_lobe(Rgb(weight), eta, f0 * tint, widths, a.multiscatter()), out,
+                     covers);
+  }
+  add_lobe(a, rough_diffuse(weight * base, base, a.fraction(DiffuseRoughness)), out, layer);
+}
+
+constexpr LeftOut kLeftOut[] = {
+    {"Subsurface Weight", 0.0f, "subsurface scattering is not supported yet; diffuse is used"},
+    kThinFilm,
+    {"Thin Wall", 0.0f, "thin walls are not supported yet; a closed surface is rendered"},
+};
+
+void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }
+}  // namespace principled
+
+}  // namespace
+
+const ClosureDecl kPrincipledClosure{
+    &principled::add,
+    {.emits = true,
+     .transparent = true,
+     .transmits = true,
+     .lobes = 6,
+     .emission = {principled::EmissionStrength, 0.0f},
+     .alpha = {principled::Alpha, 1.0f},
+     .transmission = {principled::Transmission, 0.0f},
+     .anisotropy = {principled::Anisotropic, 0.0f},
+     .parts = {{principled::Metallic, 0.0f}, {principled::Transmission, 0.0f}},
+     .covers = {{principled::CoatWeight, 0.0f}, {principled::SheenWeight, 0.0f}}},
+    principled::kLeftOut,
+    &principled::check};
+
+const std::span<const SocketDecl> kPrincipledInputs(principled::kInputs);
+
+}  // namespace janus
