@@ -12,10 +12,7 @@ from __future__ import annotations
 REFUSED = {
     "AMBIENT_OCCLUSION": "needs rays of its own",
     "BEVEL": "needs rays of its own",
-    "BSDF_METALLIC": "closure",
     "BSDF_RAY_PORTAL": "rays that go on elsewhere",
-    "BSDF_SHEEN": "closure",
-    "BSDF_TOON": "closure",
     "DISPLACEMENT": "displacement; named for the material",
     "LIGHT_FALLOFF": "the distance to what is lit",
     "MATERIAL_RAYCAST": "needs rays of its own",
@@ -59,13 +56,11 @@ FLATTENED = {
 RENAMED = {"DIFFUSE_BSDF": "BSDF_DIFFUSE"}
 # Sockets that matter only together with an input that is left out and named.
 IDLE_SOCKETS = {
-    "BSDF_GLOSSY": {"Rotation", "Tangent"},
-    "BSDF_ANISOTROPIC": {"Rotation", "Tangent"},
     "BSDF_GLASS": {"Thin Film IOR"},
+    "BSDF_METALLIC": {"Thin Film IOR"},
     "BSDF_PRINCIPLED": {
         *("Subsurface Radius", "Subsurface Scale", "Subsurface IOR", "Subsurface Anisotropy"),
-        *("Anisotropic Rotation", "Tangent", "Coat Roughness", "Coat IOR", "Coat Tint"),
-        *("Coat Normal", "Sheen Roughness", "Sheen Tint", "Thin Film IOR"),
+        "Thin Film IOR",
     },
     # Of Huang's model, which is named.
     "BSDF_HAIR_PRINCIPLED": {"Aspect Ratio", "R lobe", "TT lobe", "TRT lobe"},

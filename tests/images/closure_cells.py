@@ -29,11 +29,12 @@ RED, BLUE, GREY, WHITE = (0.9, 0.35, 0.2), (0.25, 0.45, 0.9), (0.6, 0.6, 0.6), (
 VIVID, BRIGHT, NEGATIVE = (1.0, 0.0, 0.02), (1.6, 1.2, 0.7), (0.7, -0.5, 0.3)
 CELLS = {}
 GGX = ("GGX", "MULTI_GGX")
+SETTINGS = ("distribution", "component", "fresnel_type")
 
 
 def shader(kind: str, **inputs):
-    """One closure node. Names of inputs with _ for blanks; `distribution` is a setting."""
-    settings = {key: inputs.pop(key) for key in ("distribution",) if key in inputs}
+    """One closure node. Names of inputs with _ for blanks; those of SETTINGS are none."""
+    settings = {key: inputs.pop(key) for key in SETTINGS if key in inputs}
 
     def make(t):
         node = t.node(kind, **settings)
@@ -50,7 +51,7 @@ def shader(kind: str, **inputs):
 
 def _set(t, socket, value) -> None:
     color = isinstance(value, tuple)
-    given = (*value, 1.0) if color else value
+    given = (*value, 1.0)[: len(socket.default_value)] if color else value
     socket.default_value = given
     kept = tuple(socket.default_value) if color else (socket.default_value,)
     if any(abs(a - b) > 1e-6 for a, b in zip(kept, given if color else (given,), strict=True)):
@@ -84,14 +85,13 @@ def grid(name: str, kind: str, fixed: dict | None = None, **axes) -> None:
     for values in itertools.product(*axes.values()):
         inputs = dict(zip(axes, values, strict=True))
         said = ", ".join(f"{key} {_said(value)}" for key, value in inputs.items())
-        cell(f"{name}: {said}", shader(kind, **(fixed or {}), **inputs))
+        cell(f"{name}: {said}", shader(kind, **{**(fixed or {}), **inputs}))
 
 
 def each(name: str, kind: str, fixed: dict | None = None, **lists) -> None:
     """One input at a time."""
     for key, values in lists.items():
-        others = {other: value for other, value in (fixed or {}).items() if other != key}
-        grid(name, kind, others, **{key: values})
+        grid(name, kind, fixed, **{key: values})
 
 
 def _said(value) -> str:
@@ -253,8 +253,11 @@ def mixed_cells() -> None:
 
 
 def add_cells() -> None:
+    from .closure_cells_layers import add_layers
+
     if not CELLS:
         for part in (diffuse_cells, glossy_cells, glass_cells, refraction_cells, plain_cells):
             part()
         principled_cells()
         mixed_cells()
+        add_layers()

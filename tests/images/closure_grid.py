@@ -17,6 +17,7 @@ CELL = 12  # pixels of a ball's square
 RADIUS = 0.49
 FULL = "JANUS_FULL" in os.environ
 TIMES = 2 if FULL else 1  # samples of the quick run
+ONLY = os.environ.get("JANUS_CELLS", "")  # to look at those whose names hold this alone
 SEEDS, SAMPLES, BOUNCES = 8, 128 * TIMES, 4
 
 CASES = [f"page_{number}" for number in range(PAGES if FULL else 1)]
@@ -25,7 +26,8 @@ CASES = [f"page_{number}" for number in range(PAGES if FULL else 1)]
 def names(page: str) -> list[str]:
     """From left to right and from the bottom row up: the order of the blocks of a picture."""
     closure_cells.add_cells()
-    return list(closure_cells.CELLS)[int(page.rpartition("_")[2]) :: PAGES]
+    cells = [name for name in closure_cells.CELLS if ONLY in name]
+    return cells[int(page.rpartition("_")[2]) :: PAGES]
 
 
 def rows(page: str) -> int:

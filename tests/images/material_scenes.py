@@ -108,6 +108,36 @@ def glowing_rim(t):
     return t.out("MixShader", {0: facing, 1: grey, 2: glow})
 
 
+def covered(t):
+    """Dust on a tinted coat over plastic and metal."""
+    inputs = {"Base Color": (0.8, 0.3, 0.2, 1.0), "Metallic": _level(t, 4, 0.0, 0.6)}
+    coat = {"Coat Weight": 0.8, "Coat Roughness": 0.35, "Coat Tint": (0.5, 0.7, 0.9, 1.0)}
+    sheen = {"Sheen Weight": _level(t, 3, 0.0, 1.0), "Sheen Tint": (0.9, 0.9, 0.5, 1.0)}
+    tint = {"Specular Tint": (0.9, 0.5, 0.7, 1.0), "Emission Strength": 0.3}
+    return t.out("BsdfPrincipled", {**inputs, **coat, **sheen, **tint})
+
+
+def brushed(t):
+    inputs = {"Base Color": (0.9, 0.7, 0.4, 1.0), "Edge Tint": (0.6, 0.8, 0.9, 1.0)}
+    turned = {"Roughness": 0.5, "Anisotropy": 0.8, "Rotation": _level(t, 3, 0.0, 1.0)}
+    return t.out("BsdfMetallic", {**inputs, **turned})
+
+
+def cloth(t):
+    sheen = t.out("BsdfSheen", {"Color": _picture(t, 2), "Roughness": _level(t, 3, 0.2, 1.0)})
+    velvet = t.out("BsdfSheen", {"Roughness": 0.5}, distribution="ASHIKHMIN")
+    ground = t.out("BsdfDiffuse", {"Color": (0.3, 0.2, 0.4, 1.0)})
+    first = t.out("AddShader", {0: ground, 1: sheen})
+    return t.out("MixShader", {0: _level(t, 4, 0.0, 0.7), 1: first, 2: velvet})
+
+
+def comic(t):
+    normal = t.out("Bump", {"Height": _waves(t), "Strength": 0.5, "Distance": 0.03})
+    base = t.out("BsdfToon", {"Size": 0.7, "Smooth": 0.2, "Normal": normal})
+    shine = t.out("BsdfToon", {"Size": 0.3, "Smooth": 0.3}, component="GLOSSY")
+    return t.out("MixShader", {0: _level(t, 2, 0.0, 0.8), 1: base, 2: shine})
+
+
 # Only the pane is one: right of column SEEN the camera sees no mirror, but what it throws there.
 MIRRORS = {"mirrored"}
 SEEN = 17
@@ -122,6 +152,10 @@ CASES = {
     "textured_emissive_mesh": textured_emissive,
     "view_dependent": view_dependent,
     "view_dependent_emission": glowing_rim,
+    "covered": covered,
+    "brushed": brushed,
+    "cloth": cloth,
+    "comic": comic,
 }
 
 

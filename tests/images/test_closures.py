@@ -12,6 +12,7 @@ CELL = closure_grid.CELL
 TOLERANCE = 0.01  # of each block's mean
 ERROR, MEDIAN = 0.005, 0.002  # its standard error: of the noisiest, and of most
 FIRM = 0.0025  # with such an error, one and a half per cent does not pass
+ROUNDING = 2e-4  # what passes straight through is nearly without noise
 DARK = 0.1  # the surroundings have 0.5: what is darker is compared in hundredths of this
 SAMPLES = {"pt": 96 * closure_grid.TIMES, "bdpt": 80 * closure_grid.TIMES}
 
@@ -35,7 +36,8 @@ def compared(pictures, page: str, integrator: str, factor=1.0):
     captured, cycles = pictures(page)
     ours = captured.series(integrator, SAMPLES[integrator], 8)
     wrong = [factor * picture[..., :3] for picture in ours]
-    return compare(wrong, cycles, block=CELL, mask=inside_the_balls(page), dark=DARK)
+    mask = inside_the_balls(page)
+    return compare(wrong, cycles, block=CELL, mask=mask, dark=DARK, rounding=ROUNDING)
 
 
 @pytest.mark.parametrize("integrator", SAMPLES)

@@ -96,6 +96,29 @@ NodeGraph bumped() {
                "BSDF");
 }
 
+// A closure with bumps.
+NodeGraph waved(const char* type, std::map<std::string, NodeInput> inputs, const char* setting = "",
+                const char* value = "") {
+  NodeGraph waves = bumped();
+  Node shader = node("Shader", type, std::move(inputs));
+  shader.inputs["Normal"] = link("Bump", "Normal");
+  if (*setting) {
+    shader = with(shader, setting, value);
+  }
+  waves.nodes.back() = shader;
+  return waves;
+}
+NodeGraph covered() {
+  return waved("BSDF_PRINCIPLED", {{"Base Color", vec4(0.8f, 0.3f, 0.2f, 1)},
+                                   {"Coat Weight", 0.8f},
+                                   {"Coat Roughness", 0.35f},
+                                   {"Coat Tint", vec4(0.5f, 0.7f, 0.9f, 1)},
+                                   {"Sheen Weight", 0.6f},
+                                   {"Metallic", 0.3f},
+                                   {"Specular Tint", vec4(0.9f, 0.5f, 0.7f, 1)},
+                                   {"Emission Strength", 0.3f}});
+}
+
 struct ShaderScene {
   std::string name;
   NodeGraph (*make)();
@@ -105,6 +128,17 @@ struct ShaderScene {
 
 const ShaderScene kScenes[] = {
     {"bumped", &bumped, true, 64},
+    {"covered", &covered, true, 64},
+    {"sheen", [] { return waved("BSDF_SHEEN", {{"Roughness", 0.4f}}); }, true, 64},
+    {"velvet",
+     [] { return waved("BSDF_SHEEN", {{"Roughness", 0.6f}}, "distribution", "ASHIKHMIN"); }, true,
+     64},
+    {"toon", [] { return waved("BSDF_TOON", {{"Size", 0.6f}, {"Smooth", 0.3f}}); }, true, 64},
+    {"glossy_toon",
+     [] { return waved("BSDF_TOON", {{"Size", 0.4f}, {"Smooth", 0.3f}}, "component", "GLOSSY"); },
+     true, 64},
+    {"brushed", [] { return waved("BSDF_METALLIC", {{"Roughness", 0.5f}, {"Anisotropy", 0.7f}}); },
+     true, 64},
     {"coated", [] { return coated(0.4f); }, true},
     {"mirror_coated", [] { return coated(0.0f); }, false, 64},
     // A light walk goes on as the surface looks from where it comes; what the surface lets through

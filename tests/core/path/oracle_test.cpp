@@ -110,6 +110,25 @@ const OracleScene kScenes[] = {
        ball_of(kit, "ember", {0.5f, 0.2f, 0.3f}, {{"Emission Strength", 2.0f}});
        return kit.light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.6f, 20));
      }},
+    {"covers",  // they dim what they cover, and are in no density
+     [] {
+       SceneKit kit = open_box();
+       const auto ball_of = [&](const char* name, vec3 p, const char* type,
+                                std::map<std::string, NodeInput> inputs) {
+         kit.add(name, ball(0.3f, 10, true), single(type, std::move(inputs)), translation(p));
+       };
+       ball_of("coated", {-0.6f, 0, -0.5f}, "BSDF_PRINCIPLED",
+               {{"Coat Weight", 1.0f}, {"Coat Roughness", 0.4f}, {"Coat Tint", vec4(0.5f)}});
+       ball_of("polished", {0, -0.2f, -0.5f}, "BSDF_PRINCIPLED",
+               {{"Coat Weight", 0.7f}, {"Coat Roughness", 0.0f}, {"Roughness", 0.5f}});
+       ball_of("dusty", {0.6f, 0, -0.5f}, "BSDF_PRINCIPLED",
+               {{"Sheen Weight", 1.0f}, {"Sheen Roughness", 0.5f}, {"Metallic", 0.5f}});
+       ball_of("ember", {0.5f, 0.2f, 0.3f}, "BSDF_PRINCIPLED",
+               {{"Coat Weight", 1.0f}, {"Coat Roughness", 0.5f}, {"Emission Strength", 2.0f}});
+       ball_of("velvet", {-0.4f, 0.3f, 0.3f}, "BSDF_SHEEN", {{"Roughness", 0.4f}});
+       ball_of("comic", {0, 0.5f, 0}, "BSDF_TOON", {{"Size", 0.7f}, {"Smooth", 0.2f}});
+       return kit.light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.6f, 20));
+     }},
     {"crossings",  // they are in no density
      [] {
        const NodeGraph pane = single("BSDF_TRANSPARENT", {{"Color", vec4(0.9f, 0.7f, 0.5f, 1)}});

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""More cells for closure_cells.py: cloth and toon, metals, facets of two widths, and what covers a
+Principled surface."""
+
+from __future__ import annotations
+
+from .closure_cells import (
+    BLUE,
+    BRIGHT,
+    GGX,
+    GREY,
+    NEGATIVE,
+    RED,
+    VIVID,
+    WHITE,
+    add,
+    cell,
+    each,
+    grid,
+    mix,
+    shader,
+)
+from .closure_inputs import bent, bumped, by_side, colors, facing, flat, from_above, painted, ramp
+
+NORMALS = (bumped, bent, flat)
+
+
+def across(t):
+    """A tangent around another axis than the one that surfaces have by themselves."""
+    return t.out("Tangent", {}, axis="X")
+
+
+def cloth_cells() -> None:
+    kind = "BsdfSheen"
+    grid("Sheen", kind, Color=(RED, WHITE), Roughness=(0.0, 0.1, 0.3, 0.6, 1.0))
+    each(
+        *("Sheen", kind, {"Color": WHITE, "Roughness": 0.5}),
+        Roughness=(-0.5, 2.0, ramp(-0.2, 1.2), painted),
+        Color=(BRIGHT, NEGATIVE, colors, facing),
+        Normal=NORMALS,
+    )
+    velvet = {"distribution": "ASHIKHMIN"}
+    grid("Velvet", kind, {**velvet, "Color": RED}, Roughness=(0.0, 0.2, 0.5, 1.0))
+    each(*("Velvet", kind, {**velvet, "Roughness": 0.6}), Normal=NORMALS, Color=(colors,))
+
+
+def toon_cells() -> None:
+    kind = "BsdfToon"
+    parts = ("DIFFUSE", "GLOSSY")
+    grid("Toon", kind, {"Color": RED}, component=parts, Size=(0.15, 0.5, 1.0), Smooth=(0.0, 0.3))
+    for component in parts:
+        each(
+            *(f"Toon {component}", kind, {"component": component, "Size": 0.4, "Smooth": 0.2}),
+            Size=(0.0, 1.5, ramp(0.1, 0.9)),
+            Smooth=(-0.5, 1.5, painted),
+            Color=(BRIGHT, colors, facing),
+            Normal=NORMALS,
+        )
+
+
+def metallic_cells() -> None:
+    kind = "BsdfMetallic"
+    gold = {"IOR": (0.2, 0.45, 1.4), "Extinction": (3.5, 2.4, 1.9)}
+    rough = (0.0, 0.25, 0.7)
+    physical = {"fresnel_type": "PHYSICAL_CONDUCTOR"}
+    for distribution in GGX:
+        base = {"distribution": distribution}
+        grid(f"Conductor {distribution}", kind, {**base, **physical, **gold}, Roughness=rough)
+        tinted = {**base, "Base_Color": RED}
+        grid(f"Metal {distribution}", kind, tinted, Edge_Tint=(BLUE, WHITE), Roughness=rough)
+        each(
+            *(f"Metal {distribution}", kind, {**tinted, "Roughness": 0.4, "Edge_Tint": BLUE}),
+            Base_Color=(BRIGHT, NEGATIVE, colors),
+            Edge_Tint=(VIVID, BRIGHT, colors),
+            Anisotropy=(0.4, 1.0, 1.5, ramp(-0.2, 1.0)),
+            Normal=(*NORMALS, from_above),
+        )
+    each(
+        *("Conductor", kind, {**physical, **gold, "Roughness": 0.3}),
+        IOR=((0.0, 1.0, 8.0), (-1.0, 2.0, 1.0), colors),
+        Extinction=((0.0, 0.0, 0.0), (-1.0, 9.0, 1.0), colors),
+    )
+
+
+def anisotropic_cells() -> None:
+    brushed = {"Color": RED, "Roughness": 0.4}
+    for distribution in GGX:
+        fixed = {**brushed, "distribution": distribution}
+        name, kind = f"Brushed {distribution}", "BsdfAnisotropic"
+        grid(name, kind, fixed, Anisotropy=(-0.9, -0.3, 0.5, 0.95), Rotation=(0.0, 0.2))
+        each(
+            *(name, kind, {**fixed, "Anisotropy": 0.7, "Rotation": 0.1}),
+            Roughness=(0.0, 0.1, 1.0, ramp(-0.2, 1.2)),
+            Anisotropy=(-2.0, 2.0, ramp(-1.2, 1.2), painted),
+            Rotation=(-3.3, ramp(0.0, 1.0)),
+            Tangent=(across, from_above),
+            Normal=NORMALS,
+        )
+        fixed = {"distribution": distribution, "Base_Color": BLUE, "Roughness": 0.45}
+        name, kind = f"Principled brushed {distribution}", "BsdfPrincipled"
+        grid(name, kind, fixed, Anisotropic=(0.3, 1.0), Metallic=(0.0, 0.6, 1.0))
+        each(
+            *(name, kind, {**fixed, "Anisotropic": 0.8, "Metallic": 1.0}),
+            Anisotropic=(-1.0, 2.0, ramp(-0.2, 1.1)),
+            Anisotropic_Rotation=(0.25, ramp(0.0, 1.0), by_side(0.1, 0.4)),
+            Tangent=(across,),
+            Normal=(bumped, bent),
+        )
+
+
+def tint_cells() -> None:
+    kind = "BsdfPrincipled"
+    for distribution in GGX:
+        fixed = {"Base_Color": GREY, "distribution": distribution, "Roughness": 0.3}
+        name = f"Tint {distribution}"
+        metallic, clear = (0.0, 0.5, 1.0), {**fixed, "Transmission_Weight": 1.0}
+        grid(name, kind, fixed, Specular_Tint=(RED, VIVID, BRIGHT), Metallic=metallic)
+        grid(f"Clear {name}", kind, clear, Specular_Tint=(RED, BRIGHT), Roughness=(0.0, 0.4))
+        levels = {"Specular_IOR_Level": (0.2, 2.0, 30.0), "IOR": (1.5, 0.7)}
+        grid(name, kind, {**fixed, "Specular_Tint": BLUE}, **levels)
+        each(name, kind, fixed, Specular_Tint=(NEGATIVE, colors, facing))
+
+
+def cover_cells() -> None:
+    kind = "BsdfPrincipled"
+    red = {"Base_Color": RED}
+    coated = {**red, "Coat_Weight": 1.0}
+    grid("Coat", kind, red, Coat_Weight=(0.3, 1.0), Coat_Roughness=(0.0, 0.1, 0.6))
+    grid("Coat", kind, coated, Coat_IOR=(0.5, 1.0, 1.2, 3.0), Coat_Tint=(WHITE, BLUE))
+    each(
+        *("Coat", kind, {**coated, "Coat_Tint": BLUE, "Coat_Roughness": 0.2}),
+        Coat_Weight=(-0.5, 1.5, ramp(-0.2, 1.2), painted, facing),
+        Coat_Roughness=(-1.0, 2.0, ramp(-0.2, 1.2)),
+        Coat_IOR=(ramp(0.8, 2.5),),
+        Coat_Tint=(VIVID, BRIGHT, NEGATIVE, colors),
+        Coat_Normal=(bumped, bent, flat),
+        Normal=(bumped, bent, flat),
+        Metallic=(0.5, 1.0),
+        Transmission_Weight=(0.5, 1.0),
+        Alpha=(0.4,),
+        Emission_Strength=(0.6, facing),
+    )
+    sheen = {**red, "Sheen_Weight": 1.0}
+    grid("Dust", kind, red, Sheen_Weight=(0.3, 1.0), Sheen_Roughness=(0.1, 0.5, 1.0))
+    each(
+        *("Dust", kind, {**sheen, "Sheen_Tint": BLUE}),
+        Sheen_Weight=(-0.5, 1.5, ramp(-0.2, 1.2), painted),
+        Sheen_Roughness=(-1.0, 2.0, ramp(-0.2, 1.2)),
+        Sheen_Tint=(WHITE, VIVID, NEGATIVE, colors),
+        Normal=(bumped, bent),
+        Metallic=(1.0,),
+        Transmission_Weight=(0.7,),
+        Emission_Strength=(0.6,),
+    )
+    both = {**coated, "Sheen_Weight": 0.7, "Coat_Roughness": 0.3, "Coat_Tint": GREY}
+    each(
+        *("Dust on a coat", kind, both),
+        Coat_Normal=(bumped, bent),
+        Coat_Weight=(0.4, 1.0),
+        Emission_Strength=(0.5,),
+        Roughness=(0.0, 0.8),
+        Metallic=(0.4,),
+    )
+    whole = shader(kind, **both, Metallic=0.3, Transmission_Weight=0.4, Anisotropic=0.5)
+    glow = shader(kind, **coated, Emission_Strength=0.5, Alpha=0.7)
+    cell("Mix: covered, sheen", mix(facing, whole, shader("BsdfSheen", Color=WHITE)))
+    cell("Mix: covered, glow", mix(0.4, whole, glow))
+    cell("Mix: two covered", mix(painted, whole, shader(kind, **sheen, Metallic=0.5)))
+    cell("Add: dust, toon", add(shader("BsdfSheen"), shader("BsdfToon", Size=0.3)))
+
+
+def add_layers() -> None:
+    cloth_cells()
+    toon_cells()
+    metallic_cells()
+    anisotropic_cells()
+    tint_cells()
+    cover_cells()
