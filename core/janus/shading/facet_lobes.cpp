@@ -103,19 +103,22 @@ LobeEval evaluate_reflection(const Lobe& lobe, const Directions& d, vec3 n, vec3
   const float cos_o = dot(d.wo, n), cos_i = dot(d.wi, n);
   if (cos_o > 0.0f && cos_i > 0.0f) {
     const Facets facets(lobe, n);
-    const float common = 0.25f * facets.distribution(h) / cos_o;
+    const float quarter = 0.25f * facets.distribution(h), common = quarter / cos_o;
     const float lambda_o = facets.lambda(d.wo, cos_o), lambda_i = facets.lambda(d.wi, cos_i);
     out.f = lobe.weight * fresnel * (common / (1.0f + lambda_o + lambda_i));
     if (lobe.multiscatter) {
       out.f *= energy_scale(lobe, cos_o, eta);
     }
     out.pdf_radiance = pmf * common / (1.0f + lambda_o);
+    out.pdf_importance = pmf * quarter / (cos_i * (1.0f + lambda_i));
   }
-  if (dot(d.wo, n_light) > 0.0f && dot(d.wi, n_light) > 0.0f) {
-    const Facets facets(lobe, n_light);
+  if (n != n_light) {
     const float cos = dot(d.wi, n_light);
+    const Facets facets(lobe, n_light);
     out.pdf_importance =
-        pmf * 0.25f * facets.distribution(h) / (cos * (1.0f + facets.lambda(d.wi, cos)));
+        cos > 0.0f && dot(d.wo, n_light) > 0.0f
+            ? pmf * 0.25f * facets.distribution(h) / (cos * (1.0f + facets.lambda(d.wi, cos)))
+            : 0.0f;
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #include "janus/shading/layers.h"
 
 #include "janus/shading/albedo.h"
+#include "janus/shading/facet_lobes.h"
 #include "janus/shading/fresnel.h"
 #include "janus/shading/sheen.h"
 #include "janus/shading/sides.h"
@@ -59,12 +60,17 @@ Rgb covers_transmittance(const Lobe& lobe, vec3 ng, vec3 wo) {
   return lobe.above ? through(*(&lobe - lobe.above), ng, wo) : Rgb(1.0f);
 }
 
-Rgb covered_share(const Lobe& lobe, float cos_o) {
-  if (!lobe.above) {
-    return Rgb(1.0f);
+float covered_share(const Lobe& lobe, float cos) {
+  // Light walks arrive at grazing angles without the loss that the camera side sees.
+  constexpr float kLeast = 0.25f;
+  float share = 1.0f;
+  for (const Lobe* layer = &lobe; layer->above;) {
+    layer -= layer->above;
+    const bool sheen = layer->type == LobeType::Sheen;
+    const float albedo = sheen ? 1.0f : max_component(reflectance(*layer, cos));
+    share *= 1.0f - albedo * (sheen ? 0.2f : layer->type == LobeType::Coat ? layer->sigma : 1.0f);
   }
-  const Lobe& layer = *(&lobe - lobe.above);
-  return layer_transmittance(layer, cos_o) * covered_share(layer, cos_o);
+  return std::max(kLeast, share);
 }
 
 }  // namespace janus

@@ -11,12 +11,8 @@
 
 namespace janus {
 
-vec3 valid_normal(vec3 n, vec3 ng, vec3 wo) {
+vec3 turned_normal(vec3 n, vec3 ng, vec3 wo, float least) {
   const float cos_g = dot(wo, ng);
-  const float least = std::min(0.9f * cos_g, 0.01f);  // cosine that a reflection must keep to ng
-  if (2.0f * dot(n, wo) * dot(n, ng) - cos_g >= least) {
-    return n;
-  }
   // In the plane of both normals, with z = ng: of N = (sqrt(1 - z^2), z) the reflection has cosine
   // 2 z (sqrt(1 - z^2) x + z cos_g) - cos_g, to be `least`. Squared, that is quadratic in z^2, with
   // the discriminant x^2 (a - least^2); the sign of x says which root solves it unsquared.
@@ -101,10 +97,7 @@ std::optional<DeltaEvent> sample_delta(const Lobe& lobe, vec3 ng, vec3 from, flo
 }
 
 float estimated_albedo(const Lobe& lobe, float cos) {
-  // Light walks arrive at grazing angles without the loss that the camera side sees.
-  constexpr float kLeastCovered = 0.25f;
-  const float share =
-      lobe.above ? std::max(kLeastCovered, average(covered_share(lobe, cos))) : 1.0f;
+  const float share = covered_share(lobe, cos);
   switch (lobe.type) {
     case LobeType::Metal:
     case LobeType::Conductor:

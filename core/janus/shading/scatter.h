@@ -28,7 +28,12 @@ struct LobeEval {
 // The normal that Cycles gives to GGX and Translucent lobes: where a mirror at shading normal `n`
 // would send the view `wo` below the surface, `n` is turned towards `ng` until the reflection just
 // leaves it. Both normals on the side of wo.
-vec3 valid_normal(vec3 n, vec3 ng, vec3 wo);
+vec3 turned_normal(vec3 n, vec3 ng, vec3 wo, float least);
+inline vec3 valid_normal(vec3 n, vec3 ng, vec3 wo) {
+  const float cos_g = dot(wo, ng);
+  const float least = std::min(0.9f * cos_g, 0.01f);  // cosine that a reflection must keep to ng
+  return 2.0f * dot(n, wo) * dot(n, ng) - cos_g >= least ? n : turned_normal(n, ng, wo, least);
+}
 
 // For lobes that are not deltas.
 LobeEval evaluate_lobe(const Lobe& lobe, vec3 ng, const Directions& d);

@@ -129,6 +129,14 @@ struct ShaderScene {
 const ShaderScene kScenes[] = {
     {"bumped", &bumped, true, 64},
     {"covered", &covered, true, 64},
+    {"polished",  // what covers is smooth: no light path shows it
+     [] {
+       return single("BSDF_PRINCIPLED", {{"Coat Weight", 1.0f},
+                                         {"Coat Roughness", 0.0f},
+                                         {"Coat Tint", vec4(0.9f, 0.5f, 0.2f, 1)},
+                                         {"Roughness", 0.5f}});
+     },
+     false, 64},
     {"sheen", [] { return waved("BSDF_SHEEN", {{"Roughness", 0.4f}}); }, true, 64},
     {"velvet",
      [] { return waved("BSDF_SHEEN", {{"Roughness", 0.6f}}, "distribution", "ASHIKHMIN"); }, true,

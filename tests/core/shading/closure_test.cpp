@@ -207,6 +207,26 @@ TEST(Furnace, Coats) {
   }
 }
 
+// Smooth glass below dust: each event is dimmed as the camera side sees it.
+TEST(Furnace, SmoothBelowCovers) {
+  const Lobe dust = sheen_lobe(Rgb(0.6f), 0.5f, Rgb(0.6f));
+  const Lobe coat = coat_lobe(Rgb(0.5f), 1.5f, 0.2f, 0.5f, kWhite);
+  const Lobe clear = glass_lobe(kWhite, kWhite, true, 1.5f, 0);
+  const Bsdf bsdf = make({dust, below(coat), below(clear)});
+  for (const float mu : {0.2f, 0.6f, 1.0f, -0.7f}) {
+    const float left = 1 - 0.6f * SheenLobe(0.5f, std::abs(mu)).albedo;
+    const float share = left * (1 - 0.5f * layer_reflectance(coat, std::abs(mu)).x);
+    Random random(3);
+    Mean smooth;
+    for (int i = 0; i < 20000; ++i) {
+      const auto s = bsdf.view(kNg).sample(at_cosine(mu), random.next(), random.next_2d(),
+                                           TransportMode::Radiance);
+      smooth.add(s && s->delta ? s->weight.x : 0.0f);
+    }
+    EXPECT_NEAR(smooth.mean(), share, 4 * smooth.error()) << mu;
+  }
+}
+
 // The narrower a lobe, the nearer it is to its delta: the light of a cone around the smooth
 // direction, in both walks.
 TEST(SmoothLimit, IsContinuous) {

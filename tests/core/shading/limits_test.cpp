@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "janus/shading/compiler.h"
+#include "janus/shading/facet_lobes.h"
 #include "janus/shading/fresnel.h"
+#include "janus/shading/layers.h"
 #include "shading/lobes.h"
 #include "support/scene_kit.h"
 
@@ -76,9 +78,11 @@ TEST(Limits, DielectricsReflectNoLessThanStraightOn) {
 
 TEST(Limits, PrincipledLayerMayHideAllBelow) {
   const auto lobes = compiled(single("BSDF_PRINCIPLED", {{"Specular IOR Level", 40.0f}})).lobes;
-  ASSERT_EQ(lobes.size(), 1u);
-  EXPECT_EQ(lobes[0].type, LobeType::Glossy);
-  EXPECT_EQ(lobes[0].weight, kWhite);
+  ASSERT_EQ(lobes.size(), 2u);
+  for (const float mu : {0.1f, 0.7f, 1.0f}) {
+    EXPECT_EQ(reflectance(lobes[0], mu), kWhite);
+    EXPECT_EQ(layer_transmittance(lobes[0], mu), Rgb(0));
+  }
 }
 
 // Colours above 1 gain at every bounce between facets; where that has no sum, there is a limit.
