@@ -166,8 +166,8 @@ def lamp_without_output(scene):
 def unsupported_node(scene):
     material = new_material("Bad material")
     nodes = material.node_tree.nodes
-    toon, output = nodes.new("ShaderNodeBsdfToon"), nodes.new("ShaderNodeOutputMaterial")
-    material.node_tree.links.new(toon.outputs[0], output.inputs[0])
+    portal, output = nodes.new("ShaderNodeBsdfRayPortal"), nodes.new("ShaderNodeOutputMaterial")
+    material.node_tree.links.new(portal.outputs[0], output.inputs[0])
     apart(add_square("Bad")).data.materials.append(material)
 
 
@@ -214,7 +214,7 @@ CASES = {
     world_without_output: (),
     material_without_output: ("Material 'Bad material': there is no active output",),
     lamp_without_output: (),
-    unsupported_node: ("Material 'Bad material', node 'Toon BSDF'",),
+    unsupported_node: ("Material 'Bad material', node 'Ray Portal BSDF'",),
     volume_and_displacement: (
         "Material 'Bad material': volumes",
         "Material 'Bad material': displacement",

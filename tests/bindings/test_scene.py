@@ -201,7 +201,7 @@ def test_numbers_of_numpy(builder):
 
 
 def test_unsupported_is_named_not_fatal(builder):
-    builder.set_material("m", name="Paint", graph=shader("BSDF_TOON"))
+    builder.set_material("m", name="Paint", graph=shader("BSDF_RAY_PORTAL"))
     builder.set_light("sun", name="Sun", type="SUN", transform=IDENTITY, energy=-1)
     found = builder.commit().diagnostics
     assert ("Paint", "Shader") in [(d.material, d.node) for d in found]
