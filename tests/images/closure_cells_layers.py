@@ -108,6 +108,17 @@ def anisotropic_cells() -> None:
         )
 
 
+def beckmann_cells() -> None:
+    fixed = {"Color": BLUE, "distribution": "BECKMANN"}
+    rough = (0.1, 0.35, 0.7, 1.0)
+    grid("Beckmann", "BsdfAnisotropic", fixed, Roughness=rough, Anisotropy=(0.0, 0.7))
+    grid("Beckmann glass", "BsdfGlass", fixed, IOR=(1.2, 1.5, 0.75), Roughness=rough)
+    grid("Beckmann refraction", "BsdfRefraction", fixed, IOR=(1.5, 0.75), Roughness=rough)
+    grid("Beckmann metal", "BsdfMetallic", {"distribution": "BECKMANN"}, Roughness=rough)
+    for kind in ("BsdfAnisotropic", "BsdfGlass", "BsdfRefraction"):
+        each(f"Beckmann {kind}", kind, {**fixed, "Roughness": 0.4}, Normal=(bumped, bent))
+
+
 def tint_cells() -> None:
     kind = "BsdfPrincipled"
     for distribution in GGX:
@@ -174,5 +185,6 @@ def add_layers() -> None:
     toon_cells()
     metallic_cells()
     anisotropic_cells()
+    beckmann_cells()
     tint_cells()
     cover_cells()

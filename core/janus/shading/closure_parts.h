@@ -34,8 +34,8 @@ FacetWidths turned_widths(const ClosureArguments& a, float alpha, float x, float
 FacetWidths stretched_widths(const ClosureArguments& a, float alpha, int anisotropy, int tangent,
                              int turns);
 
-// Names other distributions than GGX, where it matters.
-void check_distribution(const NodeReader& node, std::string_view fallback);
+// The lobe with the facets that the node's distribution has.
+Lobe of_distribution(const ClosureArguments& a, const Lobe& lobe);
 
 inline constexpr LeftOut kThinFilm = {"Thin Film Thickness", 0.0f,
                                       "thin film is not supported yet; it is left out"};

@@ -41,12 +41,8 @@ FacetWidths stretched_widths(const ClosureArguments& a, float alpha, int anisotr
   return turned_widths(a, alpha, 1.0f / aspect, aspect, tangent, turns);
 }
 
-void check_distribution(const NodeReader& node, std::string_view fallback) {
-  const std::string name = node.property("distribution", fallback);
-  if (name != "GGX" && name != "MULTI_GGX" &&
-      (node.link("Roughness") || node.number("Roughness") > 0.0f)) {
-    node.warn("the distribution " + name + " is not supported yet; GGX is used");
-  }
+Lobe of_distribution(const ClosureArguments& a, const Lobe& lobe) {
+  return a.beckmann() ? with_beckmann(lobe) : lobe;
 }
 
 namespace {
@@ -90,10 +86,17 @@ FacetWidths widths(const ClosureArguments& a) {
 
 void add(const ClosureArguments& a, ShadingResult& out) {
   const Rgb color = a.positive_color(Color);
-  add_lobe(a, glossy_lobe(a.share() * color, widths(a), a.multiscatter(), color), out);
+  const Lobe lobe = glossy_lobe(a.share() * color, widths(a), a.multiscatter(), color);
+  add_lobe(a, of_distribution(a, lobe), out);
 }
 
-void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }
+// Where it matters.
+void check(const NodeReader& node) {
+  if (node.property("distribution", "") == "ASHIKHMIN_SHIRLEY" &&
+      (node.link("Roughness") || node.number("Roughness") > 0.0f)) {
+    node.warn("the distribution ASHIKHMIN_SHIRLEY is not supported yet; GGX is used");
+  }
+}
 }  // namespace glossy
 
 namespace glass {
@@ -105,15 +108,13 @@ constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 1.0f},
                                   {"Thin Film Thickness", Float, 0.0f}};
 
 void add(const ClosureArguments& a, ShadingResult& out) {
-  add_lobe(a,
-           glass_lobe(Rgb(a.share()), a.positive_color(Color), true, usable_index(a.number(Ior)),
-                      sqr(a.fraction(Roughness)), a.multiscatter()),
-           out);
+  const Lobe lobe =
+      glass_lobe(Rgb(a.share()), a.positive_color(Color), true, usable_index(a.number(Ior)),
+                 sqr(a.fraction(Roughness)), a.multiscatter());
+  add_lobe(a, of_distribution(a, lobe), out);
 }
 
 constexpr LeftOut kLeftOut[] = {kThinFilm};
-
-void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }
 }  // namespace glass
 
 namespace refraction {
@@ -124,13 +125,11 @@ constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 1.0f},
                                   {"Normal", Vector, Implicit::Normal}};
 
 void add(const ClosureArguments& a, ShadingResult& out) {
-  add_lobe(a,
-           refraction_lobe(a.share() * a.positive_color(Color), usable_index(a.number(Ior)),
-                           sqr(a.number(Roughness))),  // Cycles clamps only the square
-           out);
+  const Lobe lobe =
+      refraction_lobe(a.share() * a.positive_color(Color), usable_index(a.number(Ior)),
+                      sqr(a.number(Roughness)));  // Cycles clamps only the square
+  add_lobe(a, of_distribution(a, lobe), out);
 }
-
-void check(const NodeReader& node) { check_distribution(node, "BECKMANN"); }
 }  // namespace refraction
 
 namespace translucent {
@@ -190,17 +189,15 @@ void add(const ClosureArguments& a, ShadingResult& out) {
       stretched_widths(a, sqr(a.fraction(Roughness)), Anisotropy, Tangent, Rotation);
   const Rgb weight(a.share());
   const bool physical = a.setting(1) == 1;
-  add_lobe(a,
-           physical ? conductor_lobe(weight, a.positive_color(Index), a.positive_color(Extinction),
-                                     widths, a.multiscatter())
-                    : metal_lobe(weight, a.positive_color(BaseColor), widths, a.multiscatter(),
-                                 a.positive_color(EdgeTint)),
-           out);
+  const Lobe lobe = physical
+                        ? conductor_lobe(weight, a.positive_color(Index),
+                                         a.positive_color(Extinction), widths, a.multiscatter())
+                        : metal_lobe(weight, a.positive_color(BaseColor), widths, a.multiscatter(),
+                                     a.positive_color(EdgeTint));
+  add_lobe(a, of_distribution(a, lobe), out);
 }
 
 constexpr LeftOut kLeftOut[] = {kThinFilm};
-
-void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }
 }  // namespace metallic
 
 namespace sheen {
@@ -237,16 +234,15 @@ void add(const ClosureArguments& a, ShadingResult& out) {
 const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
     kGlossyClosure{
         &glossy::add, {.lobes = 1, .anisotropy = {glossy::Anisotropy, 0.0f}}, {}, &glossy::check},
-    kGlassClosure{&glass::add, {.transmits = true, .lobes = 1}, glass::kLeftOut, &glass::check},
-    kRefractionClosure{&refraction::add, {.transmits = true, .lobes = 1}, {}, &refraction::check},
+    kGlassClosure{&glass::add, {.transmits = true, .lobes = 1}, glass::kLeftOut},
+    kRefractionClosure{&refraction::add, {.transmits = true, .lobes = 1}},
     kTranslucentClosure{&translucent::add, {.transmits = true, .lobes = 1}},
     kTransparentClosure{&transparent::add, {.transparent = true}},
     kHoldoutClosure{&holdout::add, {.holds_out = true}},
     kEmissionClosure{&emission::add, {.emits = true, .emission = {1, 0.0f}}},
     kMetallicClosure{&metallic::add,
                      {.lobes = 1, .anisotropy = {metallic::Anisotropy, 0.0f}},
-                     metallic::kLeftOut,
-                     &metallic::check},
+                     metallic::kLeftOut},
     kSheenClosure{&sheen::add, {.lobes = 1}}, kToonClosure{&toon::add, {.lobes = 1}};
 
 const std::span<const SocketDecl> kDiffuseInputs(diffuse::kInputs), kGlossyInputs(glossy::kInputs),

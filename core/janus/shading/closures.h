@@ -36,6 +36,7 @@ class ClosureArguments {
   float share() const { return registers_[closure_.share]; }
   int setting(int i = 0) const { return closure_.settings[static_cast<size_t>(i)]; }
   bool multiscatter() const { return setting() == 0; }  // of a distribution
+  bool beckmann() const { return setting() == 2; }
   // The closure's normal, and the one of the surface: on the front side.
   vec3 normal() const { return normal_; }
   vec3 surface_normal() const { return point_ ? point_->ns : vec3(0.0f, 0.0f, 1.0f); }

@@ -83,6 +83,10 @@ float defensive_share(const Lobe& lobe, bool transmitted) {
   return transmitted == (lobe.type == LobeType::Refraction) ? 1.0f : 0.0f;
 }
 
+float seen_lambda(const Facets& facets, vec3 w, float cos) {
+  return facets.sampled_lambda(facets.lambda(w, cos), w, cos);
+}
+
 LobeEval evaluate_reflection(const Lobe& lobe, const Directions& d, vec3 n, vec3 n_light) {
   if (lobe.type == LobeType::Refraction) {
     return {};
@@ -109,15 +113,16 @@ LobeEval evaluate_reflection(const Lobe& lobe, const Directions& d, vec3 n, vec3
     if (lobe.multiscatter) {
       out.f *= energy_scale(lobe, cos_o, eta);
     }
-    out.pdf_radiance = pmf * common / (1.0f + lambda_o);
-    out.pdf_importance = pmf * quarter / (cos_i * (1.0f + lambda_i));
+    out.pdf_radiance = pmf * common / (1.0f + facets.sampled_lambda(lambda_o, d.wo, cos_o));
+    out.pdf_importance =
+        pmf * quarter / (cos_i * (1.0f + facets.sampled_lambda(lambda_i, d.wi, cos_i)));
   }
   if (n != n_light) {
     const float cos = dot(d.wi, n_light);
     const Facets facets(lobe, n_light);
     out.pdf_importance =
         cos > 0.0f && dot(d.wo, n_light) > 0.0f
-            ? pmf * 0.25f * facets.distribution(h) / (cos * (1.0f + facets.lambda(d.wi, cos)))
+            ? pmf * 0.25f * facets.distribution(h) / (cos * (1.0f + seen_lambda(facets, d.wi, cos)))
             : 0.0f;
   }
   return out;
@@ -147,13 +152,13 @@ LobeEval evaluate_refraction(const Lobe& lobe, const Directions& d, vec3 n, vec3
     if (lobe.multiscatter) {
       out.f *= energy_scale(lobe, cos_o, eta);
     }
-    out.pdf_radiance = pmf * density / (1.0f + lambda_o);
+    out.pdf_radiance = pmf * density / (1.0f + facets.sampled_lambda(lambda_o, d.wo, cos_o));
   }
   const float cos = dot(d.wi, n_light);
   if (cos > 0.0f && dot(d.wo, n_light) < 0.0f && dot(h, n_light) < 0.0f) {
     const Facets facets(lobe, n_light);
     out.pdf_importance =
-        pmf * common * facets.distribution(h) / (cos * (1.0f + facets.lambda(d.wi, cos)));
+        pmf * common * facets.distribution(h) / (cos * (1.0f + seen_lambda(facets, d.wi, cos)));
   }
   return out;
 }

@@ -146,4 +146,10 @@ Lobe refraction_lobe(Rgb weight, float ior, float alpha) {
   return out;
 }
 
+Lobe with_beckmann(Lobe lobe) {
+  lobe.beckmann = true;
+  lobe.multiscatter = false;
+  return lobe;
+}
+
 }  // namespace janus

@@ -21,7 +21,7 @@ enum class LobeType : uint8_t {
   ChiangReflection,  // Principled Hair BSDF of Chiang's model: R,
   ChiangRest,        // and TT, TRT, and all after
   GlossyToon,        // a cone around the mirror direction
-  // Of facets; the first ones only reflect.
+  // Of facets, by GGX or Beckmann; the first ones only reflect.
   Glossy,      // without Fresnel term
   Metal,       // Schlick's Fresnel term with a tint of the edge (F82)
   Conductor,   // Fresnel's own for a metal
@@ -58,6 +58,7 @@ struct Lobe {
   float pmf_normal, pmf_grazing;
   LobeType type;
   uint8_t above;               // how far before this one its layer stands; 0: nothing covers it
+  bool beckmann : 1;           // facets of Beckmann's distribution; else of GGX
   bool multiscatter : 1;       // facets with Cycles' energy scale
   bool tinted_reflection : 1;  // Glass: `color` tints reflections too
   bool bumped : 1;             // the normal is the closure's own, not the surface's
@@ -115,5 +116,7 @@ Lobe coat_lobe(Rgb weight, float eta, float alpha, float share, Rgb tint);
 Lobe glass_lobe(Rgb weight, Rgb tint, bool tinted_reflection, float ior, float alpha,
                 bool multiscatter = false, Rgb f0_tint = Rgb(1.0f));
 Lobe refraction_lobe(Rgb weight, float ior, float alpha);
+// `lobe` with facets of Beckmann's distribution, which have no Multiscatter.
+Lobe with_beckmann(Lobe lobe);
 
 }  // namespace janus

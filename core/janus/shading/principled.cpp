@@ -141,8 +141,6 @@ constexpr LeftOut kLeftOut[] = {
     kThinFilm,
     {"Thin Wall", 0.0f, "thin walls are not supported yet; a closed surface is rendered"},
 };
-
-void check(const NodeReader& node) { check_distribution(node, "MULTI_GGX"); }
 }  // namespace principled
 
 }  // namespace
@@ -159,8 +157,7 @@ const ClosureDecl kPrincipledClosure{
      .anisotropy = {principled::Anisotropic, 0.0f},
      .parts = {{principled::Metallic, 0.0f}, {principled::Transmission, 0.0f}},
      .covers = {{principled::CoatWeight, 0.0f}, {principled::SheenWeight, 0.0f}}},
-    principled::kLeftOut,
-    &principled::check};
+    principled::kLeftOut};
 
 const std::span<const SocketDecl> kPrincipledInputs(principled::kInputs);
 

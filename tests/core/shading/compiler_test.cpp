@@ -65,12 +65,14 @@ TEST(Compiler, Distributions) {
     EXPECT_FALSE(with(type, "GGX", 0.5f).program.lobes[0].multiscatter);
     EXPECT_TRUE(with(type, "MULTI_GGX", 0.5f).program.lobes[0].multiscatter);
   }
-  for (const char* type : {"BSDF_GLOSSY", "BSDF_REFRACTION"}) {
+  for (const char* type : {"BSDF_GLOSSY", "BSDF_GLASS", "BSDF_REFRACTION", "BSDF_METALLIC"}) {
     const Compiled beckmann = with(type, "BECKMANN", 0.5f);
-    EXPECT_TRUE(warned(beckmann, "Shader", "BECKMANN"));
-    EXPECT_FLOAT_EQ(beckmann.program.lobes[0].alpha, 0.25f);
-    EXPECT_TRUE(with(type, "BECKMANN", 0).diagnostics.empty());  // all are smooth alike
+    EXPECT_TRUE(beckmann.diagnostics.empty());
+    EXPECT_TRUE(beckmann.program.lobes[0].beckmann) << type;
+    EXPECT_FALSE(with(type, "GGX", 0.5f).program.lobes[0].beckmann) << type;
   }
+  EXPECT_TRUE(warned(with("BSDF_GLOSSY", "ASHIKHMIN_SHIRLEY", 0.5f), "Shader", "ASHIKHMIN"));
+  EXPECT_TRUE(with("BSDF_GLOSSY", "ASHIKHMIN_SHIRLEY", 0).diagnostics.empty());  // smooth alike
 }
 
 TEST(Compiler, OmittedInputsTakeTheDeclaredDefaults) {

@@ -19,16 +19,19 @@ constexpr SocketDecl kAdd[] = {{"Shader", SocketType::Closure},
 
 constexpr SocketDecl kAov[] = {{"Color", SocketType::Color}, {"Value", SocketType::Float}};
 
-// Other distributions are named where a surface is rough.
-constexpr std::string_view kGgx[] = {"MULTI_GGX", "GGX"}, kOneGgx[] = {"GGX"},
-                           kOthers[] = {"BECKMANN", "ASHIKHMIN_SHIRLEY"};
-constexpr EnumDecl kDistribution[] = {{"distribution", kGgx, kOthers}},
-                   kRefraction[] = {{"distribution", kOneGgx, kOthers}};
+// Glossy names the last one where a surface is rough. What Refraction does not have comes first, so
+// that the places are the same.
+constexpr std::string_view kDistributions[] = {"MULTI_GGX", "GGX", "BECKMANN"},
+                           kTwoGgx[] = {"MULTI_GGX", "GGX"}, kAshikhmin[] = {"ASHIKHMIN_SHIRLEY"};
+constexpr EnumDecl kDistribution[] = {{"distribution", kDistributions}},
+                   kGlossy[] = {{"distribution", kDistributions, kAshikhmin}},
+                   kPrincipled[] = {{"distribution", kTwoGgx}};
 
 constexpr std::string_view kFresnelTypes[] = {"F82", "PHYSICAL_CONDUCTOR"},
                            kSheens[] = {"MICROFIBER", "ASHIKHMIN"},
                            kToons[] = {"DIFFUSE", "GLOSSY"};
-constexpr EnumDecl kMetallic[] = {{"distribution", kGgx, kOthers}, {"fresnel_type", kFresnelTypes}},
+constexpr EnumDecl kMetallic[] = {{"distribution", kDistributions},
+                                  {"fresnel_type", kFresnelTypes}},
                    kSheen[] = {{"distribution", kSheens}}, kToon[] = {{"component", kToons}};
 
 constexpr std::string_view kComponents[] = {"Reflection", "Transmission"},
@@ -43,19 +46,18 @@ constexpr EnumDecl kComponent[] = {{"component", kComponents}},
 std::span<const NodeDecl> closure_nodes() {
   static const NodeDecl kNodes[] = {
       {"BSDF_DIFFUSE", kDiffuseInputs, kBsdf, nullptr, &kDiffuseClosure},
-      {"BSDF_GLOSSY", kGlossyInputs, kBsdf, nullptr, &kGlossyClosure, MixOp::None, kDistribution},
-      {"BSDF_ANISOTROPIC", kGlossyInputs, kBsdf, nullptr, &kGlossyClosure, MixOp::None,
-       kDistribution},
+      {"BSDF_GLOSSY", kGlossyInputs, kBsdf, nullptr, &kGlossyClosure, MixOp::None, kGlossy},
+      {"BSDF_ANISOTROPIC", kGlossyInputs, kBsdf, nullptr, &kGlossyClosure, MixOp::None, kGlossy},
       {"BSDF_GLASS", kGlassInputs, kBsdf, nullptr, &kGlassClosure, MixOp::None, kDistribution},
       {"BSDF_REFRACTION", kRefractionInputs, kBsdf, nullptr, &kRefractionClosure, MixOp::None,
-       kRefraction},
+       kDistribution},
       {"BSDF_TRANSLUCENT", kTranslucentInputs, kBsdf, nullptr, &kTranslucentClosure},
       {"BSDF_TRANSPARENT", kTransparentInputs, kBsdf, nullptr, &kTransparentClosure},
       {"HOLDOUT", {}, kHoldout, nullptr, &kHoldoutClosure},
       {"EMISSION", kEmissionInputs, kEmission, nullptr, &kEmissionClosure},
       {"BACKGROUND", kEmissionInputs, kBackground, nullptr, &kEmissionClosure},
       {"BSDF_PRINCIPLED", kPrincipledInputs, kBsdf, nullptr, &kPrincipledClosure, MixOp::None,
-       kDistribution},
+       kPrincipled},
       {"BSDF_METALLIC", kMetallicInputs, kBsdf, nullptr, &kMetallicClosure, MixOp::None, kMetallic},
       {"BSDF_SHEEN", kSheenInputs, kBsdf, nullptr, &kSheenClosure, MixOp::None, kSheen},
       {"BSDF_TOON", kToonInputs, kBsdf, nullptr, &kToonClosure, MixOp::None, kToon},
