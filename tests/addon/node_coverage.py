@@ -56,11 +56,8 @@ FLATTENED = {
 RENAMED = {"DIFFUSE_BSDF": "BSDF_DIFFUSE"}
 # Sockets that matter only together with an input that is left out and named.
 IDLE_SOCKETS = {
-    "BSDF_GLASS": {"Thin Film IOR"},
-    "BSDF_METALLIC": {"Thin Film IOR"},
     "BSDF_PRINCIPLED": {
         *("Subsurface Radius", "Subsurface Scale", "Subsurface IOR", "Subsurface Anisotropy"),
-        "Thin Film IOR",
     },
     # Of Huang's model, which is named.
     "BSDF_HAIR_PRINCIPLED": {"Aspect Ratio", "R lobe", "TT lobe", "TRT lobe"},
@@ -80,7 +77,9 @@ IDLE_ITEMS = {
         *("BURLEY", "RANDOM_WALK", "RANDOM_WALK_SKIN", "RANDOM_WALK_LEGACY"),
     },
 }
+FILMS = "films before 5.0 have the colours of 5.0"
 REMARKS = {
+    **dict.fromkeys(("BSDF_GLASS", "BSDF_METALLIC", "BSDF_PRINCIPLED"), FILMS),
     "ATTRIBUTE": "rotations on edges, and instances in instances, are named; before 4.5 also "
     "what Geometry Nodes store on instances",
     "BSDF_HAIR": "on meshes named; where Cycles looks for lamps it leaves out a part of it",
