@@ -151,12 +151,19 @@ def add_cases() -> None:
         return
     import bpy
 
-    from . import node_cases_groups, node_cases_images, node_cases_places, node_cases_versions
+    from . import (
+        node_cases_groups,
+        node_cases_images,
+        node_cases_places,
+        node_cases_textures,
+        node_cases_versions,
+    )
 
     math_cases()
     color_cases()
     node_cases_places.add_cases()
     node_cases_images.add_cases()
+    node_cases_textures.add_cases()
     node_cases_groups.add_cases()
     node_cases_versions.add_cases()
     older = tuple(name for until, name in OLDER if bpy.app.version < until)

@@ -44,6 +44,12 @@ inline float ping_pong(float a, float b) {
   return std::abs((x - std::floor(x)) * 2.0f * b - b);
 }
 
+// From 0 at a to 1 at b, without slope there.
+inline float smoothstep(float x, float a, float b) {
+  const float t = a == b ? 0.0f : std::clamp((x - a) / (b - a), 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
 // The polynomial smooth minimum (I. Quilez), cubic.
 inline float smooth_minimum(float a, float b, float c) {
   if (c == 0.0f) {

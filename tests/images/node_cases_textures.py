@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cases for procedural textures.
+
+Most look at places on a grid of about a pixel: there both engines compute the same numbers,
+whatever the slope. The others take what a texture takes by itself.
+"""
+
+from __future__ import annotations
+
+from .node_cases import CASES, case, enum_items
+
+DIMENSIONS = ("1D", "2D", "3D", "4D")
+
+
+def add_cases() -> None:
+    white_noise_cases()
+    pattern_cases()
+    brick_cases()
+    wave_cases()
+    noise_cases()
+
+
+def place(t, size=0.27, shift=(0.013, 0.37, 0.11)):
+    """A vector from about -2 to 2 that is the same all over a pixel."""
+    snapped = t.out("VectorMath", {0: t.vector(), 1: [size] * 3}, operation="SNAP")
+    return t.out("VectorMath", {0: snapped, 1: shift}, operation="ADD")
+
+
+def numbers(t):
+    """Three of them."""
+    return t.node("SeparateXYZ", {0: place(t)}).outputs
+
+
+def spread(t, number, low, high):
+    return t.out(
+        "MapRange",
+        {"Value": number, "From Min": -2.0, "From Max": 2.0, "To Min": low, "To Max": high},
+    )
+
+
+def add(name, kind, inputs, outputs, **properties):
+    """A case for each output of a node; inputs: a function of the tree."""
+    for output in outputs:
+
+        def build(t, output=output):
+            return t.out(kind, inputs(t), output, **properties)
+
+        CASES[f"{name} {output}"] = build
+
+
+def white_noise_cases() -> None:
+    def inputs(dimensions):
+        def make(t):
+            wanted = {} if dimensions == "1D" else {"Vector": place(t, 0.25, (0.0, 0.5, 3.0))}
+            if dimensions in ("1D", "4D"):
+                wanted["W"] = t.out("Math", {0: t.signed()[1], 1: 0.25}, operation="SNAP")
+            return wanted
+
+        return make
+
+    for d in DIMENSIONS:
+        add(f"white noise {d}", "TexWhiteNoise", inputs(d), ("Value", "Color"), noise_dimensions=d)
+    add("white noise of nothing", "TexWhiteNoise", lambda t: {}, ("Value", "Color"))
+
+
+def pattern_cases() -> None:
+    for kind in enum_items("TexGradient", "gradient_type"):
+        add(
+            f"gradient {kind}",
+            "TexGradient",
+            lambda t: {"Vector": place(t)},
+            ("Fac", "Color"),
+            gradient_type=kind,
+        )
+        add(
+            f"gradient {kind} of nothing", "TexGradient", lambda t: {}, ("Fac",), gradient_type=kind
+        )
+
+    def colors(t):
+        return {"Color1": t.color(), "Color2": t.color(0.4)}
+
+    add(
+        "checker",
+        "TexChecker",
+        lambda t: {"Vector": place(t), "Scale": 3.3} | colors(t),
+        ("Fac", "Color"),
+    )
+    add(
+        "checker of whole numbers",
+        "TexChecker",
+        lambda t: {"Vector": place(t, 0.25, (0.0, 0.5, 3.0)), "Scale": 4.0},
+        ("Fac", "Color"),
+    )
+    add(
+        "checker by a number",
+        "TexChecker",
+        lambda t: {"Scale": spread(t, numbers(t)[0], -4.0, 4.0)},
+        ("Fac", "Color"),
+    )
+    for depth in range(11):
+        add(
+            f"magic {depth}",
+            "TexMagic",
+            lambda t: {"Vector": place(t), "Scale": 1.3, "Distortion": 0.8},
+            ("Fac", "Color"),
+            turbulence_depth=depth,
+        )
+    add("magic of nothing", "TexMagic", lambda t: {}, ("Fac", "Color"))
+    add(
+        "magic by numbers",
+        "TexMagic",
+        lambda t: {"Scale": numbers(t)[0], "Distortion": numbers(t)[1]},
+        ("Color",),
+        turbulence_depth=4,
+    )
+    for distortion in (0.0, -1.5):
+        add(
+            f"magic {distortion}",
+            "TexMagic",
+            lambda t, distortion=distortion: {"Vector": place(t), "Distortion": distortion},
+            ("Color",),
+        )
+
+
+def brick_cases() -> None:
+    def colors(t):
+        return {"Color1": t.color(), "Color2": t.color(0.4), "Mortar": (0.9, 0.1, 0.4, 1.0)}
+
+    def sizes(t):
+        return {"Scale": 1.1, "Mortar Size": 0.08, "Bias": 0.1, "Brick Width": 0.9}
+
+    for frequency, squash in ((1, 1), (2, 3), (3, 2)):
+        add(
+            f"brick {frequency} {squash}",
+            "TexBrick",
+            lambda t: {"Vector": place(t), "Mortar Smooth": 0.6} | colors(t) | sizes(t),
+            ("Fac", "Color"),
+            offset=0.3,
+            offset_frequency=frequency,
+            squash=0.7,
+            squash_frequency=squash,
+        )
+    for smooth in (0.0, 1.0):
+        add(
+            f"brick smooth {smooth}",
+            "TexBrick",
+            lambda t, smooth=smooth: {"Vector": place(t), "Mortar Smooth": smooth} | sizes(t),
+            ("Fac", "Color"),
+        )
+    add("brick of nothing", "TexBrick", lambda t: {}, ("Fac", "Color"))
+    add(
+        "brick by numbers",
+        "TexBrick",
+        lambda t: {
+            "Vector": place(t),
+            "Scale": spread(t, numbers(t)[0], -2.0, 2.0),
+            "Mortar Size": spread(t, numbers(t)[1], -0.1, 0.5),
+            "Mortar Smooth": spread(t, numbers(t)[2], -0.2, 1.2),
+            "Bias": numbers(t)[0],
+            "Brick Width": spread(t, numbers(t)[1], -0.5, 2.0),
+            "Row Height": spread(t, numbers(t)[2], -0.5, 2.0),
+        },
+        ("Fac", "Color"),
+    )
+
+
+def wave_cases() -> None:
+    def basic(t):
+        return {"Vector": place(t), "Scale": 0.4, "Phase Offset": 0.7}
+
+    for profile in enum_items("TexWave", "wave_profile"):
+        for kind, directions in (("BANDS", "bands_direction"), ("RINGS", "rings_direction")):
+            for direction in enum_items("TexWave", directions):
+                settings = {"wave_type": kind, directions: direction, "wave_profile": profile}
+                add(f"wave {kind} {direction} {profile}", "TexWave", basic, ("Fac",), **settings)
+        add(f"wave of nothing {profile}", "TexWave", lambda t: {}, ("Fac",), wave_profile=profile)
+        add(
+            f"wave by numbers {profile}",
+            "TexWave",
+            lambda t: {
+                "Vector": place(t),
+                "Scale": spread(t, numbers(t)[0], -1.0, 2.0),
+                "Distortion": numbers(t)[1],
+                "Detail": spread(t, numbers(t)[2], -0.9, 6.0),
+                "Detail Scale": numbers(t)[0],
+                "Detail Roughness": spread(t, numbers(t)[1], -0.5, 1.5),
+                "Phase Offset": numbers(t)[2],
+            },
+            ("Fac", "Color"),
+            wave_profile=profile,
+        )
+    add(
+        "wave distorted",
+        "TexWave",
+        lambda t: basic(t) | {"Distortion": 3.0, "Detail": 2.6, "Detail Scale": 1.4},
+        ("Fac", "Color"),
+    )
+
+
+def noise_cases() -> None:
+    def inputs(dimensions, more):
+        def make(t):
+            wanted = {} if dimensions == "1D" else {"Vector": place(t)}
+            if dimensions in ("1D", "4D"):
+                wanted["W"] = numbers(t)[1]
+            return wanted | more(t)
+
+        return make
+
+    def basic(t):
+        return {"Scale": 1.7, "Detail": 2.4, "Roughness": 0.6, "Lacunarity": 2.3}
+
+    def full(t):
+        return {
+            "Scale": spread(t, numbers(t)[0], -1.0, 2.0),
+            "Detail": spread(t, numbers(t)[1], -1.0, 6.0),
+            "Roughness": spread(t, numbers(t)[2], -0.2, 1.3),
+            "Lacunarity": spread(t, numbers(t)[0], -0.5, 3.0),
+            "Distortion": numbers(t)[1],
+        }
+
+    for d in DIMENSIONS:
+        for kind in enum_items("TexNoise", "noise_type"):
+            heights = {
+                "FBM": {},
+                "MULTIFRACTAL": {},
+                "HETERO_TERRAIN": {"Offset": 0.4},
+            }.get(kind, {"Offset": 0.7, "Gain": 1.4})
+            for normalize in (False, True) if kind == "FBM" else (True,):
+                name = f"noise {d} {kind}" + ("" if normalize else " as it is")
+                settings = {"noise_dimensions": d, "noise_type": kind, "normalize": normalize}
+                for more, outputs in ((basic, ("Fac", "Color")), (full, ("Color",))):
+                    add(
+                        f"{name} {more.__name__}",
+                        "TexNoise",
+                        inputs(d, lambda t, m=more, h=heights: m(t) | h),
+                        outputs,
+                        **settings,
+                    )
+        for scale in (3e5, 4e6, 1e20):
+            add(
+                f"noise {d} far {scale:g}",
+                "TexNoise",
+                inputs(d, lambda t, scale=scale: {"Scale": scale, "Detail": 0.0}),
+                ("Fac",),
+                noise_dimensions=d,
+            )
+    add("noise of nothing", "TexNoise", lambda t: {"Scale": 2.0}, ("Fac", "Color"))
+    for name in ("UV", "Object"):
+        add(
+            f"noise of {name}",
+            "TexNoise",
+            lambda t, name=name: {"Vector": t.coordinate(name), "Scale": 1.5, "Distortion": 0.5},
+            ("Color",),
+        )
+
+    @case("noise both")
+    def _(t):
+        node = t.node("TexNoise", {"Vector": place(t), "Scale": 1.3})
+        return t.around("VectorMath", {0: node.outputs["Color"], 1: node.outputs[0]})
+
+    for d in DIMENSIONS:
+
+        @case(f"bump by noise {d}")
+        def _(t, d=d):
+            scale = {} if d == "1D" else {"Scale": 0.8}
+            noise = t.node("TexNoise", {**scale, "Detail": 1.0}, noise_dimensions=d)
+            if d in ("1D", "4D"):
+                t.tree.links.new(t.parts()[0], noise.inputs["W"])
+            return t.out("Bump", {"Height": noise.outputs[0], "Distance": 0.3})
