@@ -29,7 +29,6 @@ REFUSED = {
     "TEX_IES": "beams of IES files",
     "TEX_POINTDENSITY": "volume",
     "TEX_SKY": "procedural texture",
-    "TEX_VORONOI": "procedural texture",
     "VECTOR_DISPLACEMENT": "displacement; named for the material",
     "VOLUME_ABSORPTION": "volume; named for the material",
     "VOLUME_COEFFICIENTS": "volume; named for the material",

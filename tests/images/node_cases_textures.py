@@ -17,6 +17,7 @@ def add_cases() -> None:
     pattern_cases()
     brick_cases()
     wave_cases()
+    voronoi_cases()
     noise_cases()
 
 
@@ -195,6 +196,56 @@ def wave_cases() -> None:
         lambda t: basic(t) | {"Distortion": 3.0, "Detail": 2.6, "Detail Scale": 1.4},
         ("Fac", "Color"),
     )
+
+
+def voronoi_cases() -> None:
+    outputs = {
+        "DISTANCE_TO_EDGE": ("Distance",),
+        "N_SPHERE_RADIUS": ("Radius",),
+    }
+
+    def inputs(dimensions, feature, metric, numbered):
+        def make(t):
+            wanted = {} if dimensions == "1D" else {"Vector": place(t)}
+            if dimensions in ("1D", "4D"):
+                wanted["W"] = numbers(t)[1]
+            if feature == "SMOOTH_F1":
+                wanted["Smoothness"] = spread(t, numbers(t)[0], -0.1, 1.1) if numbered else 0.7
+            if metric == "MINKOWSKI" and dimensions != "1D":
+                wanted["Exponent"] = spread(t, numbers(t)[1], 0.2, 3.0) if numbered else 1.6
+            wanted["Randomness"] = spread(t, numbers(t)[2], -0.2, 1.2) if numbered else 0.8
+            wanted["Scale"] = spread(t, numbers(t)[1], -1.0, 2.0) if numbered else 1.3
+            if numbered and feature != "N_SPHERE_RADIUS":
+                wanted["Detail"] = spread(t, numbers(t)[0], -1.0, 2.0)
+                wanted["Roughness"] = spread(t, numbers(t)[1], -0.2, 1.2)
+                wanted["Lacunarity"] = spread(t, numbers(t)[2], 0.3, 3.0)
+            return wanted
+
+        return make
+
+    for d in DIMENSIONS:
+        places = {"1D": ("W",), "4D": ("Position", "W")}.get(d, ("Position",))
+        for feature in enum_items("TexVoronoi", "feature"):
+            metrics = ["EUCLIDEAN"]
+            if d != "1D" and feature not in outputs:
+                metrics = enum_items("TexVoronoi", "distance")
+            for metric in metrics:
+                settings = {"voronoi_dimensions": d, "feature": feature, "distance": metric}
+                for numbered in (False, True):
+                    add(
+                        f"voronoi {d} {feature} {metric}" + (" by numbers" if numbered else ""),
+                        "TexVoronoi",
+                        inputs(d, feature, metric, numbered),
+                        outputs.get(feature, ("Distance", "Color", *places)),
+                        **settings,
+                        normalize=numbered,
+                    )
+    add("voronoi of nothing", "TexVoronoi", lambda t: {}, ("Distance", "Color", "Position"))
+
+    @case("bump by voronoi")
+    def _(t):
+        cells = t.node("TexVoronoi", {"Scale": 1.5}, feature="SMOOTH_F1")
+        return t.out("Bump", {"Height": cells.outputs[0], "Distance": 0.3})
 
 
 def noise_cases() -> None:

@@ -78,6 +78,40 @@ constexpr float jenkins_number(float first, Floats... more) {
       std::array{std::bit_cast<uint32_t>(first), std::bit_cast<uint32_t>(more)...});
 }
 
+// Permuted congruential generators of two to four words (Jarzynski & Olano, Hash Functions for GPU
+// Rendering), as Cycles has them: signs are shifted in, and the result has 31 bits.
+template <size_t N>
+constexpr std::array<uint32_t, N> pcg_hash(std::array<uint32_t, N> v) {
+  static_assert(N >= 2 && N <= 4);
+  for (uint32_t& x : v) {
+    x = x * 1664525U + 1013904223U;
+  }
+  const auto stir = [&v] {
+    if constexpr (N == 2) {
+      v[0] += v[1] * 1664525U;
+      v[1] += v[0] * 1664525U;
+    } else if constexpr (N == 3) {
+      v[0] += v[1] * v[2];
+      v[1] += v[2] * v[0];
+      v[2] += v[0] * v[1];
+    } else {
+      v[0] += v[1] * v[3];
+      v[1] += v[2] * v[0];
+      v[2] += v[0] * v[1];
+      v[3] += v[1] * v[2];
+    }
+  };
+  stir();
+  for (uint32_t& x : v) {
+    x ^= static_cast<uint32_t>(static_cast<int32_t>(x) >> 16);
+  }
+  stir();
+  for (uint32_t& x : v) {
+    x &= 0x7fffffffU;
+  }
+  return v;
+}
+
 inline uint32_t hash_combine(uint32_t seed, uint32_t value) {
   return hash32(seed ^ (value * 0x9e3779b9U + 0x7f4a7c15U + (seed << 6) + (seed >> 2)));
 }

@@ -6,12 +6,9 @@
 
 #include <cstdint>
 
-#include "janus/math/vec.h"
+#include "janus/math/white_noise.h"
 
 namespace janus {
-
-template <int D>
-using Coordinates = glm::vec<D, float>;
 
 // As x86 processors round to integers, towards 0: what does not fit in is the smallest.
 inline int32_t to_integer(float x) {

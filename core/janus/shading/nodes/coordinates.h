@@ -3,10 +3,11 @@
 // Textures in one to four dimensions: what they have in common.
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 
-#include "janus/math/noise.h"
-#include "janus/shading/operation.h"
+#include "janus/math/white_noise.h"
+#include "janus/shading/node_emitter.h"
 
 namespace janus {
 
@@ -32,6 +33,20 @@ struct Dimensional {
 
 // "3D" -> 3
 inline int dimensions_of(std::string_view name) { return name[0] - '0'; }
+
+// Vector and W, or noughts for what does not count.
+inline Value used_vector(NodeEmitter& e, int dimensions) {
+  return dimensions == 1 ? e.constant(vec3(0.0f)) : e.input("Vector");
+}
+inline Value used_w(NodeEmitter& e, int dimensions) {
+  return dimensions == 2 || dimensions == 3 ? e.constant(0.0f) : e.input("W");
+}
+
+// The place of an item in a list that has it.
+template <size_t N>
+uint32_t number_of(const std::string_view (&items)[N], std::string_view item) {
+  return static_cast<uint32_t>(std::ranges::find(items, item) - items);
+}
 
 inline constexpr Operation kFirst = pure<[](vec3 v) { return v.x; }>;
 

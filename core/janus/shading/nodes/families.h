@@ -19,6 +19,7 @@ std::span<const NodeDecl> input_nodes();
 std::span<const NodeDecl> geometry_nodes();
 std::span<const NodeDecl> texture_nodes();
 std::span<const NodeDecl> noise_nodes();
+std::span<const NodeDecl> voronoi_nodes();
 std::span<const NodeDecl> pattern_nodes();
 std::span<const NodeDecl> normal_nodes();
 

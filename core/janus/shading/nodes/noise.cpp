@@ -3,7 +3,7 @@
 // Random numbers of places: White Noise, Noise.
 #include <algorithm>
 
-#include "janus/math/hash.h"
+#include "janus/math/noise.h"
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/coordinates.h"
 #include "janus/shading/nodes/families.h"
@@ -22,43 +22,17 @@ constexpr std::string_view kWhiteOutputs[] = {"Value", "Color"};
 
 template <int D>
 float white_value(vec3 v, float w) {
-  if constexpr (D == 1) {
-    return jenkins_number(w);
-  } else if constexpr (D == 2) {
-    return jenkins_number(v.x, v.y);
-  } else if constexpr (D == 3) {
-    return jenkins_number(v.x, v.y, v.z);
-  } else {
-    return jenkins_number(v.x, v.y, v.z, w);
-  }
+  return white_number(coordinates<D>(v, w));
 }
-// Green and blue have one number more, but for four dimensions: these are turned.
 template <int D>
-vec3 white_color(vec3 v, float w) {
-  const float red = white_value<D>(v, w);
-  if constexpr (D == 1) {
-    return vec3(red, jenkins_number(w, 1.0f), jenkins_number(w, 2.0f));
-  } else if constexpr (D == 2) {
-    return vec3(red, jenkins_number(v.x, v.y, 1.0f), jenkins_number(v.x, v.y, 2.0f));
-  } else if constexpr (D == 3) {
-    return vec3(red, jenkins_number(v.x, v.y, v.z, 1.0f), jenkins_number(v.x, v.y, v.z, 2.0f));
-  } else {
-    return vec3(red, jenkins_number(v.z, v.x, w, v.y), jenkins_number(w, v.z, v.y, v.x));
-  }
+vec3 white_color_at(vec3 v, float w) {
+  return white_color(coordinates<D>(v, w));
 }
 
 constexpr Dimensional kWhiteValue = {pure<&white_value<1>>, pure<&white_value<2>>,
                                      pure<&white_value<3>>, pure<&white_value<4>>};
-constexpr Dimensional kWhiteColor = {pure<&white_color<1>>, pure<&white_color<2>>,
-                                     pure<&white_color<3>>, pure<&white_color<4>>};
-
-// Vector and W, or noughts for what does not count.
-Value used_vector(NodeEmitter& e, int dimensions) {
-  return dimensions == 1 ? e.constant(vec3(0.0f)) : e.input("Vector");
-}
-Value used_w(NodeEmitter& e, int dimensions) {
-  return dimensions == 2 || dimensions == 3 ? e.constant(0.0f) : e.input("W");
-}
+constexpr Dimensional kWhiteColor = {pure<&white_color_at<1>>, pure<&white_color_at<2>>,
+                                     pure<&white_color_at<3>>, pure<&white_color_at<4>>};
 
 void emit_white_noise(NodeEmitter& e) {
   const int dimensions = dimensions_of(e.property("noise_dimensions", "3D"));
@@ -148,9 +122,8 @@ constexpr Dimensional kNoiseColor = {pure<&noise_color<1>>, pure<&noise_color<2>
 
 void emit_noise(NodeEmitter& e) {
   const int dimensions = dimensions_of(e.property("noise_dimensions", "3D"));
-  const auto type =
-      std::ranges::find(kNoiseTypes, e.property("noise_type", "FBM")) - std::begin(kNoiseTypes);
-  const uint32_t data = static_cast<uint32_t>(type) | (e.flag("normalize") ? kNormalize : 0);
+  const uint32_t data = number_of(kNoiseTypes, e.property("noise_type", "FBM")) |
+                        (e.flag("normalize") ? kNormalize : 0);
   const Value v = used_vector(e, dimensions), w = used_w(e, dimensions);
   const auto noise = [&](const Operation& operation) {
     return e.emit(

@@ -77,19 +77,26 @@ void emit_checker(NodeEmitter& e) {
 constexpr SocketDecl kMagicInputs[] = {
     {"Vector", Vector, Implicit::Generated}, {"Scale", Float, 5.0f}, {"Distortion", Float, 1.0f}};
 
+// What `data` says beside the depth: coordinates are brought into the first turn before they are
+// scaled, as they were before Blender 5.2.
+constexpr uint32_t kWrapsUnscaled = 16;
+
 // Psychedelic sums of waves of waves. `data`: how deep.
 vec3 magic(const Context& c, vec3 v, float scale, float distortion) {
   const auto in_turn = [](float x) { return std::fmod(x, 2.0f * kPi); };
-  const vec3 p(in_turn(v.x), in_turn(v.y), in_turn(v.z));
-  float x = std::sin((p.x + p.y + p.z) * 5.0f * scale);
-  float y = std::cos((-p.x + p.y - p.z) * 5.0f * scale);
-  float z = -std::cos((-p.x - p.y + p.z) * 5.0f * scale);
-  if (c.data > 0) {
+  const uint32_t depth = c.data & ~kWrapsUnscaled;
+  const float before = c.data & kWrapsUnscaled ? 1.0f : scale;
+  const float after = c.data & kWrapsUnscaled ? scale : 1.0f;
+  const vec3 p(in_turn(v.x * before), in_turn(v.y * before), in_turn(v.z * before));
+  float x = std::sin((p.x + p.y + p.z) * 5.0f * after);
+  float y = std::cos((-p.x + p.y - p.z) * 5.0f * after);
+  float z = -std::cos((-p.x - p.y + p.z) * 5.0f * after);
+  if (depth > 0) {
     x *= distortion;
     y *= distortion;
     z *= distortion;
   }
-  for (uint32_t i = 0; i < c.data; ++i) {
+  for (uint32_t i = 0; i < depth; ++i) {
     switch (i) {
       case 0:
         y = distortion * -std::cos(x - y + z);
@@ -129,7 +136,8 @@ vec3 magic(const Context& c, vec3 v, float scale, float distortion) {
 void emit_magic(NodeEmitter& e) {
   const auto depth = static_cast<uint32_t>(std::clamp(e.number("turbulence_depth"), 0.0f, 10.0f));
   const Value color =
-      e.emit(pure<&magic>, {e.input("Vector"), e.input("Scale"), e.input("Distortion")}, depth);
+      e.emit(pure<&magic>, {e.input("Vector"), e.input("Scale"), e.input("Distortion")},
+             depth | (e.flag("wraps_unscaled") ? kWrapsUnscaled : 0));
   e.output("Color", e.convert(color, Color));
   e.output("Fac", e.convert(color, Float));
 }
