@@ -24,8 +24,6 @@ REFUSED = {
     "PRINCIPLED_VOLUME": "volume; named for the material",
     "SCRIPT": "OSL",
     "SUBSURFACE_SCATTERING": "subsurface scattering",
-    "ShaderNodeRadialTiling": "procedural texture",
-    "TEX_GABOR": "procedural texture",
     "TEX_IES": "beams of IES files",
     "TEX_POINTDENSITY": "volume",
     "TEX_SKY": "procedural texture",
@@ -34,7 +32,6 @@ REFUSED = {
     "VOLUME_COEFFICIENTS": "volume; named for the material",
     "VOLUME_INFO": "volume",
     "VOLUME_SCATTER": "volume; named for the material",
-    "WAVELENGTH": "not yet",
     "WIREFRAME": "not yet",
 }
 NOT_FOR_CYCLES = {"EEVEE_SPECULAR", "OUTPUT_LINESTYLE", "SHADERTORGB", "SQUEEZE", "UVALONGSTROKE"}

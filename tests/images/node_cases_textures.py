@@ -13,11 +13,24 @@ DIMENSIONS = ("1D", "2D", "3D", "4D")
 
 
 def add_cases() -> None:
+    import bpy
+
     white_noise_cases()
     pattern_cases()
     brick_cases()
     wave_cases()
     voronoi_cases()
+    if bpy.app.version >= (4, 3, 0):
+        gabor_cases()
+    if bpy.app.version >= (5, 0, 0):
+        radial_tiling_cases()
+    for first in (370.0, 500.0, 630.0):
+        add(
+            f"wavelength {first:.0f}",
+            "Wavelength",
+            lambda t, first=first: {0: spread(t, t.signed()[0], first, first + 160.0)},
+            ("Color",),
+        )
     noise_cases()
 
 
@@ -40,11 +53,15 @@ def spread(t, number, low, high):
 
 
 def add(name, kind, inputs, outputs, **properties):
-    """A case for each output of a node; inputs: a function of the tree."""
+    """A case for each output of a node, within limits that a tile can show; inputs: a function of
+    the tree.
+    """
     for output in outputs:
 
         def build(t, output=output):
-            return t.out(kind, inputs(t), output, **properties)
+            seen = t.out(kind, inputs(t), output, **properties)
+            above = t.around("VectorMath", {0: seen, 1: [-50.0] * 3}, operation="MAXIMUM")
+            return t.around("VectorMath", {0: above, 1: [50.0] * 3}, operation="MINIMUM")
 
         CASES[f"{name} {output}"] = build
 
@@ -246,6 +263,71 @@ def voronoi_cases() -> None:
     def _(t):
         cells = t.node("TexVoronoi", {"Scale": 1.5}, feature="SMOOTH_F1")
         return t.out("Bump", {"Height": cells.outputs[0], "Distance": 0.3})
+
+
+def gabor_cases() -> None:
+    def flat(t):
+        return {"Orientation 2D": numbers(t)[0]}
+
+    def deep(t):
+        return {"Orientation 3D": place(t, 0.27, (0.3, 0.6, 0.2))}
+
+    outputs = ("Value", "Phase", "Intensity")
+    for kind, orientation in (("2D", flat), ("3D", deep)):
+        add(f"gabor {kind} of nothing", "TexGabor", lambda t: {}, outputs, gabor_type=kind)
+        for anisotropy in (0.0, 0.4, 1.0):
+            add(
+                f"gabor {kind} {anisotropy}",
+                "TexGabor",
+                lambda t, a=anisotropy: {"Vector": place(t), "Scale": 1.3, "Anisotropy": a},
+                outputs,
+                gabor_type=kind,
+            )
+        add(
+            f"gabor {kind} by numbers",
+            "TexGabor",
+            lambda t, orientation=orientation: {
+                "Vector": place(t),
+                "Scale": spread(t, numbers(t)[0], -1.0, 2.0),
+                "Frequency": spread(t, numbers(t)[1], -1.0, 6.0),
+                "Anisotropy": spread(t, numbers(t)[2], -0.1, 1.1),
+                **orientation(t),
+            },
+            outputs,
+            gabor_type=kind,
+        )
+
+
+def radial_tiling_cases() -> None:
+    outputs = ("Segment Coordinates", "Segment ID", "Segment Width", "Segment Rotation")
+    for normalize in (False, True):
+        for sides in (2.0, 2.6, 3.0, 4.7, 6.0):
+            for roundness in (0.0, 0.35, 1.0):
+                # The corners of two parallel sides lie at infinity.
+                there = outputs[1:] if (sides, roundness) == (2.0, 0.35) else outputs
+                add(
+                    f"radial tiling {normalize} {sides} {roundness}",
+                    "RadialTiling",
+                    lambda t, sides=sides, roundness=roundness: {
+                        "Vector": place(t),
+                        "Sides": sides,
+                        "Roundness": roundness,
+                    },
+                    there,
+                    normalize=normalize,
+                )
+        add(
+            f"radial tiling {normalize} by numbers",
+            "RadialTiling",
+            lambda t: {
+                "Vector": place(t),
+                "Sides": spread(t, numbers(t)[2], 2.1, 9.0),
+                "Roundness": spread(t, numbers(t)[0], -0.1, 1.1),
+            },
+            outputs,
+            normalize=normalize,
+        )
+    add("radial tiling of nothing", "RadialTiling", lambda t: {}, outputs)
 
 
 def noise_cases() -> None:

@@ -4,16 +4,9 @@
 // and Modeling): Cycles' functions, number for number.
 #pragma once
 
-#include <cstdint>
-
 #include "janus/math/white_noise.h"
 
 namespace janus {
-
-// As x86 processors round to integers, towards 0: what does not fit in is the smallest.
-inline int32_t to_integer(float x) {
-  return x >= -2147483648.0f && x < 2147483648.0f ? static_cast<int32_t>(x) : INT32_MIN;
-}
 
 // In about [-1, 1], 0 at points of the integer grid. It repeats after 100000 along each axis.
 template <int D>
