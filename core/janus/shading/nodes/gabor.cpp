@@ -3,8 +3,6 @@
 // Gabor.
 #include "janus/math/gabor.h"
 
-#include <algorithm>
-
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/families.h"
 #include "janus/shading/nodes/scalar.h"
@@ -24,7 +22,7 @@ constexpr SocketDecl kInputs[] = {{"Vector", Vector, Implicit::Generated},
 constexpr std::string_view kOutputs[] = {"Value", "Phase", "Intensity"};
 constexpr std::string_view kTypes[] = {"2D", "3D"};
 
-float usable_frequency(float x) { return std::max(0.001f, x); }
+float usable_frequency(float x) { return x < 0.001f ? 0.001f : x; }
 float isotropy(float anisotropy) { return 1.0f - clamp01(anisotropy); }
 
 // The phasor, relative to the range of its values.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Random numbers of places: White Noise, Noise.
-#include <algorithm>
-
 #include "janus/math/noise.h"
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/coordinates.h"
@@ -92,8 +90,8 @@ Coordinates<D> noise_place(vec3 v, float w, float scale, float distortion) {
 Fractal fractal_of(const Context& c, float detail, float roughness, float lacunarity, float offset,
                    float gain) {
   return {.type = static_cast<NoiseType>(c.data & ~kNormalize),
-          .detail = detail > 0.0f ? std::min(detail, 15.0f) : 0.0f,
-          .roughness = std::max(roughness, 0.0f),
+          .detail = limited(detail, 0.0f, 15.0f),
+          .roughness = std::max(0.0f, roughness),
           .lacunarity = lacunarity,
           .offset = offset,
           .gain = gain,

@@ -27,7 +27,7 @@ void output_gray(NodeEmitter& e, Value factor) {
 constexpr SocketDecl kGradientInputs[] = {{"Vector", Vector, Implicit::Generated}};
 
 // From 1 in the middle to 0 at radius 1; a little before, for unit vectors to be at 0.
-float ball(vec3 p) { return std::max(0.999999f - std::sqrt(dot(p, p)), 0.0f); }
+float ball(vec3 p) { return std::max(0.0f, 0.999999f - std::sqrt(dot(p, p))); }
 
 struct GradientMode {
   std::string_view name;
@@ -35,8 +35,8 @@ struct GradientMode {
 };
 const GradientMode kGradients[] = {
     {"LINEAR", pure<[](vec3 p) { return clamp01(p.x); }>},
-    {"QUADRATIC", pure<[](vec3 p) { return clamp01(sqr(std::max(p.x, 0.0f))); }>},
-    {"EASING", pure<[](vec3 p) { return smoothstep(p.x, 0.0f, 1.0f); }>},
+    {"QUADRATIC", pure<[](vec3 p) { return clamp01(sqr(std::max(0.0f, p.x))); }>},
+    {"EASING", pure<[](vec3 p) { return smoothstep(clamp01(p.x), 0.0f, 1.0f); }>},
     {"DIAGONAL", pure<[](vec3 p) { return clamp01(0.5f * (p.x + p.y)); }>},
     {"SPHERICAL", pure<[](vec3 p) { return ball(p); }>},
     {"QUADRATIC_SPHERE", pure<[](vec3 p) { return sqr(ball(p)); }>},
@@ -183,7 +183,7 @@ vec3 brick(vec3 p, float scale, float mortar_size, float mortar_smooth, float bi
   const float tint = clamp01(
       brick_noise((static_cast<uint32_t>(row) << 16) + (static_cast<uint32_t>(column) & 0xffffU)) +
       bias);
-  const float edge = std::min(std::min(x, y), std::min(width - x, height - y));
+  const float edge = lower(lower(x, y), lower(width - x, height - y));
   float mortar = 1.0f;
   if (edge >= mortar_size) {
     mortar = 0.0f;

@@ -182,7 +182,7 @@ Tile tile(vec2 p, float sides, float roundness, bool normalize) {
 
 // `data`: 1, normalized.
 Tile tile_at(const Context& c, vec3 p, float sides, float roundness) {
-  Tile t = tile(vec2(p), std::max(sides, 2.0f), clamp01(roundness), c.data != 0);
+  Tile t = tile(vec2(p), std::max(2.0f, sides), clamp01(roundness), c.data != 0);
   if (p.x == 0.0f && p.y == 0.0f) {
     t.across = 0.0f;
   }
@@ -206,7 +206,7 @@ constexpr Operation kRotation = pure<[](const Context& c, vec3 p, float sides, f
 }>;
 constexpr Operation kNumber = pure<[](vec3 p, float sides) {
   const float turns = std::atan2(p.y, p.x) / (2.0f * kPi) + (p.y < 0.0f ? 1.0f : 0.0f);
-  return std::floor(std::max(sides, 2.0f) * turns);
+  return std::floor(std::max(2.0f, sides) * turns);
 }>;
 
 constexpr SocketDecl kInputs[] = {

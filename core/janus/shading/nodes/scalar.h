@@ -8,7 +8,13 @@
 
 namespace janus {
 
-inline float clamp01(float x) { return std::clamp(x, 0.0f, 1.0f); }
+// The second where one is no number, as in Cycles' vectors.
+inline float lower(float a, float b) { return a < b ? a : b; }
+inline float upper(float a, float b) { return a > b ? a : b; }
+
+// What is no number becomes the lower limit, as in Cycles.
+inline float limited(float x, float low, float high) { return x > low ? std::min(x, high) : low; }
+inline float clamp01(float x) { return limited(x, 0.0f, 1.0f); }
 
 inline float safe_divide(float a, float b) { return b != 0.0f ? a / b : 0.0f; }
 

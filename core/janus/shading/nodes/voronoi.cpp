@@ -3,8 +3,6 @@
 // Voronoi.
 #include "janus/math/voronoi.h"
 
-#include <algorithm>
-
 #include "janus/shading/nodes/coordinates.h"
 #include "janus/shading/nodes/families.h"
 #include "janus/shading/nodes/rotation.h"
@@ -39,7 +37,7 @@ auto voronoi_at(const Context& c, vec3 p, float w, float scale, float detail, fl
                 float lacunarity, float smoothness, float exponent, float randomness) {
   const Voronoi voronoi{.feature = static_cast<VoronoiFeature>(c.data & 7),
                         .metric = static_cast<VoronoiMetric>(c.data >> kMetric & 3),
-                        .detail = detail > 0.0f ? std::min(detail, 15.0f) : 0.0f,
+                        .detail = limited(detail, 0.0f, 15.0f),
                         .roughness = clamp01(roughness),
                         .lacunarity = lacunarity,
                         .smoothness = 0.5f * clamp01(smoothness),
