@@ -123,6 +123,15 @@ def pattern_cases() -> None:
             ("Fac", "Color"),
             turbulence_depth=depth,
         )
+    add(
+        "magic of many turns",
+        "TexMagic",
+        lambda t: {
+            "Vector": t.out("VectorMath", {0: place(t), "Scale": 11.0}, operation="SCALE"),
+            "Scale": 1.3,
+        },
+        ("Color",),
+    )
     add("magic of nothing", "TexMagic", lambda t: {}, ("Fac", "Color"))
     add(
         "magic by numbers",
