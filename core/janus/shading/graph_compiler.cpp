@@ -122,6 +122,8 @@ Value GraphCompiler::implicit(const SocketDecl& socket, uint16_t at) {
       return emit(kFacingNormal, {}, 0, at);
     case Implicit::Position:
       return emit(kPosition, {}, 0, at);
+    case Implicit::Generated:
+      return generated(at);
     case Implicit::Uv:
       return emit(kAttribute, {}, attribute("uv:"), at);
     case Implicit::Along:
@@ -137,6 +139,17 @@ Value GraphCompiler::implicit(const SocketDecl& socket, uint16_t at) {
       break;
   }
   return constant(socket.value, socket.type);
+}
+
+Value GraphCompiler::generated(uint16_t at) {
+  switch (seen_.of) {
+    case SeenTree::Of::World:
+      return emit(kPosition, {}, 0, at);
+    case SeenTree::Of::Lamp:
+      return emit(kObjectPoint, {}, 0, at);
+    default:
+      return emit(kAttribute, {}, attribute("generated"), at);
+  }
 }
 
 Value GraphCompiler::input(const NodeReader& reader, std::string_view identifier, uint16_t at) {

@@ -29,11 +29,12 @@ enum class Implicit {
   Normal,  // the shading normal, on the viewer's side
   Uv,      // the active UV map
   Position,
-  Along,    // on curves, their direction; elsewhere the first edge of the triangle
-  Beside,   // the same, but elsewhere the second edge
-  OnCurve,  // 1 on curves, else 0
-  Tangent,  // around the object's Z axis, where the closure has facets of two widths
-  Strand,   // a number of the curve's own, in [0, 1]; elsewhere the default
+  Generated,  // texture space: of a world the direction, of a lamp the place in its space
+  Along,      // on curves, their direction; elsewhere the first edge of the triangle
+  Beside,     // the same, but elsewhere the second edge
+  OnCurve,    // 1 on curves, else 0
+  Tangent,    // around the object's Z axis, where the closure has facets of two widths
+  Strand,     // a number of the curve's own, in [0, 1]; elsewhere the default
 };
 
 struct SocketDecl {
