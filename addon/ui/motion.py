@@ -54,6 +54,10 @@ class JANUS_VIEWLAYER_PT_filter(JanusPanel, bpy.types.Panel):
 
     def draw(self, context):
         layer, scene = context.view_layer, context.scene
+        column = self.column().column(heading="Include", align=True)
+        column.prop(layer, "use_sky", text="Environment")
+        column.prop(layer, "use_solid", text="Surfaces")
+        column.prop(layer, "use_strand", text="Hair")
         column = self.column().column(heading="Use", align=True)
         for owner, name, text, asked in (
             (layer, "use_motion_blur", "Motion Blur", scene.render.use_motion_blur),

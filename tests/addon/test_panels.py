@@ -274,7 +274,8 @@ def test_denoising_is_greyed_with_the_reason(scene, monkeypatch, where):
 
 
 def test_a_view_layer_can_leave_denoising_out(scene):
-    assert draw("JANUS_VIEWLAYER_PT_filter") == ["use_motion_blur", "use_denoising"]
+    drawn = draw("JANUS_VIEWLAYER_PT_filter")
+    assert drawn == ["use_sky", "use_solid", "use_strand", "use_motion_blur", "use_denoising"]
     assert "use_denoising" in scene.view_layers[0].janus.bl_rna.properties
 
 
