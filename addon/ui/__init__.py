@@ -22,9 +22,11 @@ def register():
         bpy.utils.register_class(cls)
     engine_panels.register()
     presets.register()
+    diagnostics.register()
 
 
 def unregister():
+    diagnostics.unregister()
     presets.unregister()
     engine_panels.unregister()
     for cls in reversed(CLASSES):
