@@ -3,13 +3,26 @@
 
 import bpy
 
-from . import camera, data, diagnostics, engine_panels, material, motion, passes, presets, scene
+from . import (
+    camera,
+    data,
+    diagnostics,
+    engine_panels,
+    film,
+    material,
+    motion,
+    passes,
+    presets,
+    scene,
+)
 
-CLASSES = (
+CLASSES = (  # in the order of Cycles' panels
     *presets.CLASSES,
     *diagnostics.CLASSES,
     *scene.CLASSES,
+    *film.SIMPLIFY,
     *motion.CLASSES,
+    *film.CLASSES,
     *passes.CLASSES,
     *material.CLASSES,
     *data.CLASSES,
