@@ -303,5 +303,8 @@ def test_what_nodes_make_has_no_hair_of_its_own(scene, export):
 
 
 def test_poly_curves_are_straight(scene, export):
-    add_curves().data.set_types(type="POLY")
+    curves = add_curves().data
+    if not hasattr(curves, "set_types"):
+        pytest.skip("this Blender lets no script set the type of curves")
+    curves.set_types(type="POLY")
     assert export().mesh_of("Hair")["straight"] == part("sync.curves").HAS_STRAIGHT
