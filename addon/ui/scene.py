@@ -20,7 +20,9 @@ class JANUS_RENDER_PT_sampling(JanusPanel, bpy.types.Panel):
     bl_context = "render"
 
     def draw(self, context):
-        self.column().prop(context.scene.janus, "seed")
+        row = self.column().row(align=True)
+        row.prop(context.scene.janus, "seed")
+        row.prop(context.scene.janus, "use_animated_seed", text="", icon="TIME")
 
 
 def draw_samples(column, janus, prefix: str) -> None:
