@@ -34,6 +34,7 @@ def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     engine_panels.register()
+    data.register()
     presets.register()
     diagnostics.register()
 
@@ -41,6 +42,7 @@ def register():
 def unregister():
     diagnostics.unregister()
     presets.unregister()
+    data.unregister()
     engine_panels.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -221,14 +221,11 @@ class VisibilityPanel(JanusPanel):
         return obj.type in kinds or obj.instance_type == "COLLECTION"
 
 
-class JANUS_OBJECT_PT_mask(VisibilityPanel, bpy.types.Panel):
-    bl_label = "Mask"
-
-    def draw(self, context):
-        column = self.column()
-        column.prop(context.object, "is_shadow_catcher")
-        if context.object.type != "LIGHT":
-            column.prop(context.object, "is_holdout")
+def draw_shadow_catcher(panel, context):
+    """Below Holdout, which Blender's panel has."""
+    if VisibilityPanel.poll(context):
+        panel.layout.use_property_split = True
+        panel.layout.column().prop(context.object, "is_shadow_catcher")
 
 
 class JANUS_OBJECT_PT_ray_visibility(VisibilityPanel, bpy.types.Panel):
@@ -253,6 +250,13 @@ CLASSES = (
     JANUS_LIGHT_PT_nodes,
     JANUS_LIGHT_PT_settings,
     JANUS_OBJECT_PT_lightgroup,
-    JANUS_OBJECT_PT_mask,
     JANUS_OBJECT_PT_ray_visibility,
 )
+
+
+def register():
+    bpy.types.OBJECT_PT_visibility.append(draw_shadow_catcher)
+
+
+def unregister():
+    bpy.types.OBJECT_PT_visibility.remove(draw_shadow_catcher)

@@ -326,10 +326,18 @@ def test_ray_visibility_of_objects(scene):
     empty.instance_type = "COLLECTION"
     assert polled(name, object=empty)
     assert bpy.types.OBJECT_PT_visibility.COMPAT_ENGINES >= {"JANUS"}
-    name = "JANUS_OBJECT_PT_mask"
-    assert draw(name, object=square) == ["is_shadow_catcher", "is_holdout"]
-    assert draw(name, object=lamp) == ["is_shadow_catcher"]
-    assert polled(name, object=lamp) and not polled(name, object=scene.camera)
+
+
+def test_shadow_catchers_are_below_holdouts(scene):
+    lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT"))
+
+    def drawn(obj, engine="JANUS"):
+        panel = SimpleNamespace(layout=Layout())
+        part("ui.data").draw_shadow_catcher(panel, SimpleNamespace(object=obj, engine=engine))
+        return panel.layout.drawn
+
+    assert drawn(lamp) == ["is_shadow_catcher"]
+    assert drawn(scene.camera) == drawn(lamp, "CYCLES") == []
 
 
 def test_ray_visibility_of_worlds(scene):
