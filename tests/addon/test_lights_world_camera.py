@@ -143,6 +143,12 @@ def test_no_world_is_black(scene, export):
     assert export().world == {"name": "", "graph": None}
 
 
+def test_view_layers_may_be_without_the_world(scene, export):
+    scene.world = bpy.data.worlds.new("Sky")
+    scene.view_layers[0].use_sky = False
+    assert export().world == {"name": "", "graph": None}
+
+
 def test_world_nodes_and_plain_color(scene, export):
     scene.world = world = bpy.data.worlds.new("Sky")
     if bpy.app.version < (5, 0, 0):

@@ -210,6 +210,14 @@ def test_pauses_and_goes_on(world_of_things, core):
     assert np.array_equal(eye.wait(), before)
 
 
+def test_a_finished_picture_outlives_a_pause(world_of_things, core):
+    eye = Eye(core)
+    before = eye.wait()
+    session = eye.viewport._session
+    eye.viewport.pause()
+    assert np.array_equal(eye.wait(), before) and eye.viewport._session is session
+
+
 def test_renders_say_that_they_run(scene, fake_core):
     final, seen = part("render.final"), []
     fake_core.script = lambda session: seen.append(final.running)
