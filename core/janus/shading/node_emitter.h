@@ -67,6 +67,8 @@ class NodeEmitter {
   Value convert(Value value, SocketType type);
 
   uint32_t attribute(const std::string& key);
+  // Some operation reads the sides of the triangle, or the width of a pixel.
+  void use_edges();
   uint32_t table(std::vector<float> values);
   uint32_t texture(Texture texture);
   const ImageDesc* image(const std::string& key) const;  // nullptr: there is none

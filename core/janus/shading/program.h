@@ -89,6 +89,7 @@ class Program {
   std::vector<float> filter_widths;  // pixels to the points beside the point that bump reads
   bool tangents = false;             // some attribute is a tangent
   bool fibers = false;               // some closure is one of hair
+  bool edges = false;                // some operation reads the triangle's, and how wide a pixel is
   Dependence dependence = Dependence::None;
   bool transmits = false;  // some closure scatters to the other side, or may
 
