@@ -337,7 +337,8 @@ def test_node_types_are_listed():
     inputs = {i["identifier"]: i for i in types["BSDF_GLASS"]["inputs"]}
     ior = {"identifier": "IOR", "type": "FLOAT", "default": (1.5, 1.5, 1.5), "left_out": False}
     assert inputs["IOR"] == ior
-    assert inputs["Thin Film Thickness"]["left_out"] is True
+    principled = {i["identifier"]: i for i in types["BSDF_PRINCIPLED"]["inputs"]}
+    assert principled["Subsurface Weight"]["left_out"] is True
     assert types["BSDF_GLASS"]["outputs"] == ["BSDF"]
     assert types["CLAMP"]["settings"] == {"clamp_type": (["MINMAX", "RANGE"], [])}
 

@@ -110,7 +110,7 @@ DENSITIES = (
         "a delta event is as likely from either side",
         BSDFS,
         BSDF,
-        "pmf(lobe, grazing(to_ng)) * event->probability;",
+        "pmf(lobe, grazing(to_ng)) * event->reverse;",
         "own;",
     ),
     one(
