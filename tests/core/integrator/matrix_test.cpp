@@ -111,7 +111,8 @@ class Comparisons {
     SCOPED_TRACE(integrator_ + ": " + name(c));
     // With 12 seeds a side, |t| > 6 happens by chance once in 50000; there are 2000 of them.
     if (outliers) {
-      EXPECT_NEAR(a[0].mean() / bdpt[0].mean(), 1.0, 0.25);
+      const double off = a[0].mean() / bdpt[0].mean() - 1.0;
+      EXPECT_TRUE(std::abs(off) < 0.25 || agree(a[0], bdpt[0], 6.0)) << off;
       return;
     }
     for (size_t k = 0; k < a.size(); ++k) {
@@ -207,7 +208,7 @@ TEST(Matrix, CausticsOnDiffuseSurfaces) {
       cases.push_back(c);
     }
   }
-  EXPECT_EQ(cases.size(), 6 * kSizes[0]);
+  EXPECT_EQ(cases.size(), 7 * kSizes[0]);
   const auto pictures = render_all(cases, aside, false);
   Comparisons lt("lt");
   for (size_t i = 0; i < cases.size(); ++i) {
