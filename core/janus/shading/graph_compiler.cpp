@@ -122,6 +122,10 @@ Value GraphCompiler::implicit(const SocketDecl& socket, uint16_t at) {
       return emit(kFacingNormal, {}, 0, at);
     case Implicit::Position:
       return emit(kPosition, {}, 0, at);
+    case Implicit::Generated:
+      return seen_.of == SeenTree::Of::World  ? emit(kPosition, {}, 0, at)
+             : seen_.of == SeenTree::Of::Lamp ? emit(kObjectPoint, {}, 0, at)
+                                              : emit(kAttribute, {}, attribute("generated"), at);
     case Implicit::Uv:
       return emit(kAttribute, {}, attribute("uv:"), at);
     case Implicit::Along:

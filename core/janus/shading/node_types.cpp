@@ -13,7 +13,7 @@ std::span<const NodeDecl> node_types() {
     std::vector<NodeDecl> all;
     for (const auto family : {closure_nodes(), math_nodes(), mix_nodes(), color_nodes(),
                               curve_nodes(), blackbody_nodes(), vector_nodes(), input_nodes(),
-                              geometry_nodes(), texture_nodes(), normal_nodes()}) {
+                              geometry_nodes(), texture_nodes(), sky_nodes(), normal_nodes()}) {
       all.insert(all.end(), family.begin(), family.end());
     }
     return all;

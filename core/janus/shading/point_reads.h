@@ -55,6 +55,9 @@ inline constexpr Operation kOnCurve = at_point<&read_on_curve>;
 inline constexpr Operation kStrand = at_point<&read_strand>;
 inline constexpr Operation kPosition = at_point<&read_position>;
 inline constexpr Operation kFacingNormal = by_side<&read_normal>;
+inline constexpr Operation kObjectPoint = at_point<[](const Context& c) {
+  return vec3(c.point.object->to_object * vec4(c.point.p, 1.0f));
+}>;
 inline constexpr Operation kAttribute = at_point<&read_attribute>;  // `data`: its slot
 inline constexpr Operation kParametric = at_point<&read_parametric>;
 

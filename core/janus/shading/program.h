@@ -67,6 +67,12 @@ struct AovWrite {
   uint16_t color, value;  // registers
 };
 
+// A sun that the program of a world shows: within `half_angle` (radians) of `direction`.
+struct SunDisc {
+  vec3 direction;
+  float half_angle;
+};
+
 class Program {
  public:
   // --- What does not vary over the surface.
@@ -90,6 +96,7 @@ class Program {
   bool tangents = false;             // some attribute is a tangent
   bool fibers = false;               // some closure is one of hair
   Dependence dependence = Dependence::None;
+  std::vector<SunDisc> suns;  // which a world looks for
   bool transmits = false;  // some closure scatters to the other side, or may
 
   // --- Of a program that does nothing else.

@@ -18,6 +18,7 @@ std::span<const NodeDecl> vector_nodes();
 std::span<const NodeDecl> input_nodes();
 std::span<const NodeDecl> geometry_nodes();
 std::span<const NodeDecl> texture_nodes();
+std::span<const NodeDecl> sky_nodes();
 std::span<const NodeDecl> normal_nodes();
 
 }  // namespace janus

@@ -30,9 +30,6 @@ constexpr Operation kObjectNormal = by_side<[](const Context& c) {
   return safe_normalize(glm::transpose(mat3(c.point.object->to_world)) *
                         c.point.facing(c.point.ns));
 }>;
-constexpr Operation kObjectPoint = at_point<[](const Context& c) {
-  return vec3(c.point.object->to_object * vec4(c.point.p, 1.0f));
-}>;
 constexpr Operation kCameraPoint = at_point<[](const Context& c) {
   return vec3(c.point.object->camera->from_world * vec4(c.point.p, 1.0f));
 }>;
