@@ -30,7 +30,6 @@ REFUSED = {
     "TEX_MAGIC": "procedural texture",
     "TEX_NOISE": "procedural texture",
     "TEX_POINTDENSITY": "volume",
-    "TEX_SKY": "procedural texture",
     "TEX_VORONOI": "procedural texture",
     "TEX_WAVE": "procedural texture",
     "TEX_WHITE_NOISE": "procedural texture",

@@ -30,11 +30,11 @@ enum class Implicit {
   Uv,      // the active UV map
   Position,
   Generated,  // as Texture Coordinate has it: in worlds, the direction
-  Along,    // on curves, their direction; elsewhere the first edge of the triangle
-  Beside,   // the same, but elsewhere the second edge
-  OnCurve,  // 1 on curves, else 0
-  Tangent,  // around the object's Z axis, where the closure has facets of two widths
-  Strand,   // a number of the curve's own, in [0, 1]; elsewhere the default
+  Along,      // on curves, their direction; elsewhere the first edge of the triangle
+  Beside,     // the same, but elsewhere the second edge
+  OnCurve,    // 1 on curves, else 0
+  Tangent,    // around the object's Z axis, where the closure has facets of two widths
+  Strand,     // a number of the curve's own, in [0, 1]; elsewhere the default
 };
 
 struct SocketDecl {

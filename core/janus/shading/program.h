@@ -97,7 +97,7 @@ class Program {
   bool fibers = false;               // some closure is one of hair
   Dependence dependence = Dependence::None;
   std::vector<SunDisc> suns;  // which a world looks for
-  bool transmits = false;  // some closure scatters to the other side, or may
+  bool transmits = false;     // some closure scatters to the other side, or may
 
   // --- Of a program that does nothing else.
   std::vector<AovWrite> aovs;

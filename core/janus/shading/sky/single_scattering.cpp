@@ -5,7 +5,6 @@
 // metres, and positions seen from the middle of the Earth.
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "janus/math/exp.h"
 #include "janus/shading/sky/models.h"
@@ -35,19 +34,6 @@ constexpr Node kLaguerre[] = {
     {0.2818362161f, 0.1283416365f},    {0.4303406404f, 0.1707430204f},
     {0.6296271457f, 0.2327233347f},    {0.9145252695f, 0.3562490486f},
 };
-constexpr std::array<Node, 16> kMiddles = [] {
-  std::array<Node, 16> nodes{};
-  for (int i = 0; i < 16; ++i) {
-    nodes[i] = {(static_cast<float>(i) + 0.5f) / 16.0f, 1.0f / 16.0f};
-  }
-  return nodes;
-}();
-
-std::span<const Node> quadrature(const Atmosphere& atmosphere) {
-  return atmosphere.model == Atmosphere::Model::Nishita ? std::span<const Node>(kMiddles)
-                                                        : std::span<const Node>(kLaguerre);
-}
-
 // Of air, aerosols and ozone at a place: shares of where they are densest.
 vec3 density(vec3 p) {
   const float height = glm::length(p) - kGround;
@@ -67,10 +53,10 @@ bool behind_earth(vec3 p, vec3 sun) {
 }
 
 // The integral of the density from a place to the end of the air, by the metre.
-vec3 depth(vec3 p, vec3 direction, std::span<const Node> nodes) {
+vec3 depth(vec3 p, vec3 direction) {
   const float length = length_in_air(p, direction);
   vec3 sum(0.0f);
-  for (const Node& node : nodes) {
+  for (const Node& node : kLaguerre) {
     sum += node.weight * density(p + node.place * length * direction);
   }
   return length * sum;
@@ -98,8 +84,7 @@ class SingleScattering {
   explicit SingleScattering(const Atmosphere& a)
       : densities_(a.air, a.aerosols, a.ozone),
         eye_(0.0f, 0.0f, kGround + std::clamp(a.altitude, 1.0f, 59999.0f)),
-        sun_(at_azimuth(a.sun_elevation, 0.0f)),
-        nodes_(quadrature(a)) {}
+        sun_(at_azimuth(a.sun_elevation, 0.0f)) {}
 
   Rgb radiance(vec3 direction) const {
     const float mu = dot(direction, sun_), g2 = kForward * kForward;
@@ -117,7 +102,7 @@ class SingleScattering {
       if (behind_earth(p, sun_)) {
         continue;
       }
-      const vec3 on_way = passed + densities_ * depth(p, sun_, nodes_);
+      const vec3 on_way = passed + densities_ * depth(p, sun_);
       const float air = step * by_air * here.x;
       const float aerosols = step * by_aerosols * here.y * kAerosolScatters;
       for (int k = 0; k < kWavelengths; ++k) {
@@ -131,7 +116,7 @@ class SingleScattering {
 
   // As in Cycles, ozone does not dim it.
   Rgb sun(float elevation) const {
-    const vec3 on_way = densities_ * depth(eye_, at_azimuth(elevation, 0.0f), nodes_);
+    const vec3 on_way = densities_ * depth(eye_, at_azimuth(elevation, 0.0f));
     Spectrum left;
     for (int k = 0; k < kWavelengths; ++k) {
       left.of[k] = exp_of(-(on_way.x * kAirScatters[k] + on_way.y * kAerosolDims));
@@ -150,7 +135,6 @@ class SingleScattering {
 
  private:
   vec3 densities_, eye_, sun_;
-  std::span<const Node> nodes_;
 };
 
 }  // namespace
