@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Skies by formulas of the zenith's and the sun's angle. Units are those of Cycles, which show no
-// sun.
+// Skies by formulas of the angles to the zenith and to the sun, which they do not show. Radiance is
+// in Cycles' units.
 #pragma once
 
 #include <array>
