@@ -10,7 +10,6 @@ def add_cases() -> None:
     vector_cases()
     input_cases()
     normal_cases()
-    sky_cases()
 
 
 def vector_cases() -> None:
