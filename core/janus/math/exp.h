@@ -7,11 +7,11 @@
 
 namespace janus {
 
-// e^x to 2e-7 of it; beyond 87 on either side that of 87. C libraries differ in the last digit of
-// theirs; sums and products do not, and compilers do several at once. The polynomial is that of
-// Cephes (Moshier).
+// e^x to 2e-7 of it; beyond 87 on either side that of 87, of what is no number that of -87. C
+// libraries differ in the last digit of theirs; sums and products do not, and compilers do several
+// at once. The polynomial is that of Cephes (Moshier).
 inline float exp_of(float x) {
-  x = std::min(std::max(x, -87.0f), 87.0f);
+  x = std::min(87.0f, std::max(-87.0f, x));
   constexpr float kRounding = 12582912.0f;  // a float so large has no places after the point
   const float n = (x * 1.44269504f + kRounding) - kRounding;
   // Two steps, because ln 2 does not fit into one number.

@@ -105,7 +105,7 @@ SkyFormula hosek_wilkie(vec3 sun, float turbidity, float albedo) {
   constexpr const float* kTerms[] = {kTermsX, kTermsY, kTermsZ};
   constexpr const float* kScale[] = {kScaleX, kScaleY, kScaleZ};
   const double x = std::cbrt(std::asin(std::min(height, 1.0f)) / (0.5 * kPi));
-  turbidity = std::clamp(turbidity, 1.0f, 10.0f);
+  turbidity = std::min(10.0f, std::max(1.0f, turbidity));  // also what is no number
   const int low = std::min(static_cast<int>(turbidity), 9);
   const float share = turbidity - static_cast<float>(low);
   for (int i = 0; i < 4; ++i) {

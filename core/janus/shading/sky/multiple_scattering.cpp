@@ -58,13 +58,13 @@ float to_sphere(vec3 p, vec3 direction, float radius) {
   return d >= b * b ? -b + std::sqrt(d) : -b - std::sqrt(d);
 }
 
-// Numbers on even steps over [0, 1], with straight lines in between.
+// Numbers on even steps over [0, 1], with straight lines in between. What is no number is 0.
 struct Place {
   int low, high;
   float share;  // of the upper one
 
   Place(float x, int count) {
-    const float at = static_cast<float>(count - 1) * std::clamp(x, 0.0f, 1.0f);
+    const float at = static_cast<float>(count - 1) * std::min(1.0f, std::max(0.0f, x));
     low = static_cast<int>(at);
     high = std::min(low + 1, count - 1);
     share = at - static_cast<float>(low);
