@@ -114,7 +114,7 @@ def keep_of_viewport(scene: str, view_layer: str, layers: list[str], log: Diagno
 def kept(scene: str) -> list[tuple[Entry, int]]:
     """The findings of the scene's last render over all its view layers."""
     merged = DiagnosticsLog()
-    for log in _kept.get(scene, {}).values():
+    for log in list(_kept.get(scene, {}).values()):  # a render may add one meanwhile
         for entry, count in log.counts.items():
             merged.add(entry, count)
     return merged.entries()

@@ -35,6 +35,11 @@ UNFOLDED = {"RGB", "INPUT_SCENE_TIME"}  # constants that Blender leaves to Cycle
 DIFFERENT_FOLDED = {"CURVE_FLOAT", "CURVE_RGB", "CURVE_VEC", "MAP_RANGE"}
 # Of Cycles before there was such a socket: Filter Width came with Blender 4.5.
 OLD_INPUTS = {"BUMP": {"Filter Width": 1.0}}
+# What Cycles computed otherwise in older Blenders: before which one, and what is said of it.
+OLD_PROPERTIES = {
+    "TEX_VORONOI": ((5, 0, 0), {"old_points": True}),
+    "TEX_MAGIC": ((5, 2, 0), {"wraps_unscaled": True}),
+}
 # Of AOV Output, by the type of the AOV.
 AOV_INPUTS = {"COLOR": "Color", "VALUE": "Value"}
 RENAMED = {"DIFFUSE_BSDF": "BSDF_DIFFUSE"}  # in Blender 4.4, and only there
@@ -247,6 +252,7 @@ def image_key(image) -> str:
 
 def _properties(node) -> dict:
     common = bpy.types.Node.bl_rna.properties
+    until, old = OLD_PROPERTIES.get(node.type, ((0,), {}))
     image = getattr(node, "image", None)
     return (
         ({"image": image_key(image)} if isinstance(image, bpy.types.Image) else {})
@@ -256,4 +262,5 @@ def _properties(node) -> dict:
             if p.type in PLAIN_PROPERTIES and p.identifier not in common
         }
         | drawn_properties(node)
+        | (old if bpy.app.version < until else {})
     )

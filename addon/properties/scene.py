@@ -196,6 +196,11 @@ class JanusSceneSettings(bpy.types.PropertyGroup):
         min=0,
         default=0,
     )
+    use_animated_seed: BoolProperty(
+        name="Use Animated Seed",
+        description="Give each frame noise of its own",
+        default=False,
+    )
     max_bounces: IntProperty(
         name="Total",
         description="Total maximum number of bounces",

@@ -97,7 +97,7 @@ class JanusViewLayerSettings(bpy.types.PropertyGroup):
         "ones",
     )
     pass_debug_sample_count: BoolProperty(
-        name="Sample Count", description="Number of samples that each pixel has got"
+        name="Sample Count", description="The part of all samples that each pixel has got"
     )
     denoising_store_passes: BoolProperty(
         name="Denoising Data",

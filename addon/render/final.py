@@ -11,7 +11,14 @@ import numpy as np
 from .. import bridge
 from ..report import RenderCancelled, RenderRefused
 from ..sync import cycles_settings, sync_scene
-from ..sync.passes import COMBINED, denoises, guides_of, requested, unsupported
+from ..sync.passes import (
+    COMBINED,
+    SAMPLE_COUNT,
+    denoises,
+    guides_of,
+    requested,
+    unsupported,
+)
 from ..sync.settings import active_views, render_settings
 from ..sync.settings import frame as read_frame
 from . import denoise
@@ -204,6 +211,8 @@ def _hand_over(session, depsgraph, result) -> None:
     for found in (COMBINED, *requested(scene, layer)):
         if found.key in known:
             pixels = session.snapshot(found.key)
+            if found.key == SAMPLE_COUNT:  # as in Cycles, the part of all samples
+                pixels /= max(session.progress()["samples"], 1)
             result.fill(found.name, pixels)
             if kept is not None:
                 kept[found.name] = pixels

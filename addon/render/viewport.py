@@ -99,8 +99,8 @@ class Viewport:
             self._session.cancel()
 
     def pause(self) -> None:
-        """Leaves the machine to others; the picture stays. advance() goes on."""
-        if self._session is not None:
+        """Leaves the machine to others; the picture stays. advance() goes on, or starts again."""
+        if self._session is not None and not self._finished:
             self._session.cancel()
             self._restart = True
 

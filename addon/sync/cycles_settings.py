@@ -27,6 +27,7 @@ SHARED = (
     "preview_adaptive_threshold",
     "preview_adaptive_min_samples",
     "time_limit",
+    "use_animated_seed",
     "use_denoising",
     "denoising_quality",
     "denoising_input_passes",

@@ -46,10 +46,11 @@ class InstanceSync:
     def run(self, depsgraph, shown=None) -> None:
         """`shown`: of an original object, whether it is part of the picture."""
         self._depsgraph = depsgraph
-        self._view_layer = depsgraph.view_layer
         self._linking = Linking(depsgraph, self._log)
         self._viewport = depsgraph.mode == "VIEWPORT"
-        self._strands = self._view_layer.use_strand
+        layer = self._view_layer = depsgraph.view_layer
+        self._strands = layer.use_strand
+        self._shown = {"MESH": layer.use_solid, "CURVES": layer.use_strand, "POINTCLOUD": True}
         # What passes read of meshes, whatever the materials.
         self._of_passes = frozenset(["uv:"] if self._view_layer.use_pass_uv else [])
         for number, instance in enumerate(depsgraph.object_instances):
@@ -71,7 +72,7 @@ class InstanceSync:
                 self._surface(instance, obj, origin, HAIR)
             if not instance.show_self:
                 continue
-            if kind in ("MESH", "POINTCLOUD") or (kind == "CURVES" and self._strands):
+            if self._shown.get(kind):
                 self._surface(instance, obj, origin)
             elif kind == "LIGHT":
                 key = self._cache.place("light")

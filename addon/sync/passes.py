@@ -40,8 +40,9 @@ DATA_PASSES = (
     ("use_pass_material_index", "Material Index", "IndexMA", "X", "VALUE"),
 )
 # And those that are switched on in view_layer.janus.
+SAMPLE_COUNT = "Debug Sample Count"
 OWN_DATA_PASSES = (
-    ("pass_debug_sample_count", "Debug Sample Count", "X", "VALUE"),
+    ("pass_debug_sample_count", SAMPLE_COUNT, "X", "VALUE"),
     ("denoising_store_passes", "Denoising Normal", "XYZ", "VECTOR"),
     ("denoising_store_passes", "Denoising Albedo", "RGB", "COLOR"),
     ("denoising_store_passes", "Denoising Depth", "Z", "VALUE"),

@@ -2,6 +2,7 @@
 """The numbers of a render: resolution, border, samples. Plain data, no core."""
 
 import os
+import zlib
 from dataclasses import dataclass, field
 
 import bpy
@@ -157,7 +158,7 @@ def light_settings(scene) -> dict:
     filter_type = shared("pixel_filter_type")
     averages = janus.heuristic == "NONE" and janus.integrator == "BDPT"
     return {
-        "seed": janus.seed,
+        "seed": frame_seed(scene),
         "threads": render.threads if render.threads_mode == "FIXED" else 0,
         "max_bounces": shared("max_bounces"),
         "max_diffuse_bounces": shared("diffuse_bounces"),
@@ -183,6 +184,14 @@ def light_settings(scene) -> dict:
         "film_transparent_glass": shared("film_transparent_glass"),
         "film_transparent_roughness": shared("film_transparent_roughness"),
     }
+
+
+def frame_seed(scene) -> int:
+    """The seed, or one of the frame that depends on it."""
+    seed = scene.janus.seed
+    if not cycles_settings.value(scene, "use_animated_seed"):
+        return seed
+    return zlib.crc32(f"{seed} {scene.frame_current} {scene.frame_subframe}".encode()) >> 1
 
 
 def merges(janus) -> bool:

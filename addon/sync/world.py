@@ -8,10 +8,12 @@ from .visibility import LIGHT_RAYS, light_group
 
 
 def sync_world(builder, depsgraph, images, log, aovs: dict[str, str]) -> None:
-    """Sends the world of the view layer; no world is black. `aovs`: see flatten_aovs()."""
+    """Sends the world of the view layer; none, or one that the layer leaves out, is black.
+    `aovs`: see flatten_aovs().
+    """
     layer = depsgraph.view_layer_eval
     world = getattr(layer, "world_override", None) or depsgraph.scene_eval.world
-    if world is None:
+    if world is None or not layer.use_sky:
         builder.set_world(name="", graph=None)
         return
     written = None

@@ -3,13 +3,26 @@
 
 import bpy
 
-from . import camera, data, diagnostics, engine_panels, material, motion, passes, presets, scene
+from . import (
+    camera,
+    data,
+    diagnostics,
+    engine_panels,
+    film,
+    material,
+    motion,
+    passes,
+    presets,
+    scene,
+)
 
-CLASSES = (
+CLASSES = (  # in the order of Cycles' panels
     *presets.CLASSES,
     *diagnostics.CLASSES,
     *scene.CLASSES,
+    *film.SIMPLIFY,
     *motion.CLASSES,
+    *film.CLASSES,
     *passes.CLASSES,
     *material.CLASSES,
     *data.CLASSES,
@@ -21,11 +34,15 @@ def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     engine_panels.register()
+    data.register()
     presets.register()
+    diagnostics.register()
 
 
 def unregister():
+    diagnostics.unregister()
     presets.unregister()
+    data.unregister()
     engine_panels.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -35,6 +35,21 @@ class JANUS_WORLD_PT_surface(JanusPanel, bpy.types.Panel):
         draw_surface(self.layout, world.node_tree)
 
 
+class JANUS_WORLD_PT_mist(JanusPanel, bpy.types.Panel):
+    bl_label = "Mist Pass"
+    bl_context = "world"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.world
+
+    def draw(self, context):
+        column = self.column()
+        for name in ("start", "depth", "falloff"):
+            column.prop(context.world.mist_settings, name)
+
+
 class JANUS_WORLD_PT_ray_visibility(JanusPanel, bpy.types.Panel):
     """The settings are Cycles' own: a file has them once."""
 
@@ -50,6 +65,46 @@ class JANUS_WORLD_PT_ray_visibility(JanusPanel, bpy.types.Panel):
         column = self.column()
         for ray in LIGHT_RAYS:
             column.prop(context.world.cycles_visibility, ray)
+
+
+def draw_light_group(layout, owner, view_layer) -> None:
+    row = layout.row(align=True)
+    row.prop_search(
+        owner,
+        "lightgroup",
+        view_layer,
+        "lightgroups",
+        text="Light Group",
+        results_are_suggestions=True,
+    )
+    column = row.column(align=True)
+    column.enabled = bool(owner.lightgroup) and owner.lightgroup not in view_layer.lightgroups
+    add = column.operator("scene.view_layer_add_lightgroup", icon="ADD", text="")
+    add.name = owner.lightgroup
+
+
+class JANUS_OBJECT_PT_lightgroup(JanusPanel, bpy.types.Panel):
+    bl_label = "Light Group"
+    bl_context = "object"
+    if hasattr(bpy.types, "OBJECT_PT_shading"):  # not in Blender 4.2, where it is Cycles' own
+        bl_parent_id = "OBJECT_PT_shading"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        draw_light_group(self.column(), context.object, context.view_layer)
+
+
+class JANUS_WORLD_PT_lightgroup(JanusPanel, bpy.types.Panel):
+    bl_label = "Light Group"
+    bl_context = "world"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.world
+
+    def draw(self, context):
+        draw_light_group(self.column(), context.world, context.view_layer)
 
 
 class LightPanel(JanusPanel):
@@ -87,17 +142,19 @@ class JANUS_LIGHT_PT_light(LightPanel, bpy.types.Panel):
     @staticmethod
     def _draw_color(column, light):
         if hasattr(light, "use_temperature"):
-            column.prop(light, "use_temperature")
-            if light.use_temperature:
-                column.prop(light, "temperature")
+            row = column.row(heading="Temperature", align=True)
+            row.prop(light, "use_temperature", text="")
+            part = row.row()
+            part.active = light.use_temperature
+            part.prop(light, "temperature", text="")
         tinted = getattr(light, "use_temperature", False)
         column.prop(light, "color", text="Tint" if tinted else "Color")
 
     @staticmethod
     def _draw_shape(column, light):
         if light.type in ("POINT", "SPOT"):
-            column.prop(light, "use_soft_falloff")
             column.prop(light, "shadow_soft_size", text="Radius")
+            column.prop(light, "use_soft_falloff")
         elif light.type == "SUN":
             column.prop(light, "angle")
         elif light.type == "AREA":
@@ -164,14 +221,11 @@ class VisibilityPanel(JanusPanel):
         return obj.type in kinds or obj.instance_type == "COLLECTION"
 
 
-class JANUS_OBJECT_PT_mask(VisibilityPanel, bpy.types.Panel):
-    bl_label = "Mask"
-
-    def draw(self, context):
-        column = self.column()
-        column.prop(context.object, "is_shadow_catcher")
-        if context.object.type != "LIGHT":
-            column.prop(context.object, "is_holdout")
+def draw_shadow_catcher(panel, context):
+    """Below Holdout, which Blender's panel has."""
+    if VisibilityPanel.poll(context):
+        panel.layout.use_property_split = True
+        panel.layout.column().prop(context.object, "is_shadow_catcher")
 
 
 class JANUS_OBJECT_PT_ray_visibility(VisibilityPanel, bpy.types.Panel):
@@ -187,12 +241,22 @@ class JANUS_OBJECT_PT_ray_visibility(VisibilityPanel, bpy.types.Panel):
 CLASSES = (
     JANUS_WORLD_PT_preview,
     JANUS_WORLD_PT_surface,
+    JANUS_WORLD_PT_mist,
     JANUS_WORLD_PT_ray_visibility,
+    JANUS_WORLD_PT_lightgroup,
     JANUS_LIGHT_PT_preview,
     JANUS_LIGHT_PT_light,
     JANUS_LIGHT_PT_beam,
     JANUS_LIGHT_PT_nodes,
     JANUS_LIGHT_PT_settings,
-    JANUS_OBJECT_PT_mask,
+    JANUS_OBJECT_PT_lightgroup,
     JANUS_OBJECT_PT_ray_visibility,
 )
+
+
+def register():
+    bpy.types.OBJECT_PT_visibility.append(draw_shadow_catcher)
+
+
+def unregister():
+    bpy.types.OBJECT_PT_visibility.remove(draw_shadow_catcher)

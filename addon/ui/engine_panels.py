@@ -20,6 +20,7 @@ EXCLUDED = {
     "OBJECT_PT_shadow_terminator": "Janus does not move it",
     "RENDER_PT_freestyle": "Janus draws no lines",
     "RENDER_PT_gpencil": "Janus renders no Grease Pencil",
+    "RENDER_PT_simplify": OWN,
     "RENDER_PT_stereoscopy": "Janus renders one view",
     "VIEWLAYER_PT_filter": OWN,
     "VIEWLAYER_PT_freestyle*": "Janus draws no lines",
@@ -27,7 +28,7 @@ EXCLUDED = {
     "VIEWLAYER_PT_override": OWN,
 }
 # Made for Blender's own engines, and what Janus needs: Cycles has copies of them.
-INCLUDED = {"DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture", "EEVEE_WORLD_PT_mist"}
+INCLUDED = {"DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture"}
 
 _opened: list[type] = []
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Motion blur: of the render, of an object, and of a view layer."""
+"""Motion blur: of the render, and of an object."""
 
 import bpy
 
@@ -47,23 +47,6 @@ class JANUS_RENDER_PT_motion_blur_curve(JanusPanel, bpy.types.Panel):
             row.operator("render.shutter_curve_preset", icon=icon, text="").shape = shape
 
 
-class JANUS_VIEWLAYER_PT_filter(JanusPanel, bpy.types.Panel):
-    bl_label = "Filter"
-    bl_context = "view_layer"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context):
-        layer, scene = context.view_layer, context.scene
-        column = self.column().column(heading="Use", align=True)
-        for owner, name, text, asked in (
-            (layer, "use_motion_blur", "Motion Blur", scene.render.use_motion_blur),
-            (layer.janus, "use_denoising", "Denoising", scene.janus.use_denoising),
-        ):
-            row = column.row()
-            row.active = asked
-            row.prop(owner, name, text=text)
-
-
 class JANUS_OBJECT_PT_motion_blur(JanusPanel, bpy.types.Panel):
     """The settings are Cycles' own: a file has them once."""
 
@@ -92,6 +75,5 @@ class JANUS_OBJECT_PT_motion_blur(JanusPanel, bpy.types.Panel):
 CLASSES = (
     JANUS_RENDER_PT_motion_blur,
     JANUS_RENDER_PT_motion_blur_curve,
-    JANUS_VIEWLAYER_PT_filter,
     JANUS_OBJECT_PT_motion_blur,
 )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which passes a view layer renders, and the light groups of what shines."""
+"""Which passes a view layer renders, and of what."""
 
 import bpy
 
@@ -166,44 +166,25 @@ class JANUS_VIEWLAYER_PT_passes_expressions(PassesPanel, bpy.types.Panel):
             draw_problem(column, item.message)
 
 
-def draw_light_group(layout, owner, view_layer) -> None:
-    row = layout.row(align=True)
-    row.prop_search(
-        owner,
-        "lightgroup",
-        view_layer,
-        "lightgroups",
-        text="Light Group",
-        results_are_suggestions=True,
-    )
-    column = row.column(align=True)
-    column.enabled = bool(owner.lightgroup) and owner.lightgroup not in view_layer.lightgroups
-    add = column.operator("scene.view_layer_add_lightgroup", icon="ADD", text="")
-    add.name = owner.lightgroup
-
-
-class JANUS_OBJECT_PT_lightgroup(JanusPanel, bpy.types.Panel):
-    bl_label = "Light Group"
-    bl_context = "object"
-    if hasattr(bpy.types, "OBJECT_PT_shading"):  # not in Blender 4.2, where it is Cycles' own
-        bl_parent_id = "OBJECT_PT_shading"
+class JANUS_VIEWLAYER_PT_filter(JanusPanel, bpy.types.Panel):
+    bl_label = "Filter"
+    bl_context = "view_layer"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        draw_light_group(self.column(), context.object, context.view_layer)
-
-
-class JANUS_WORLD_PT_lightgroup(JanusPanel, bpy.types.Panel):
-    bl_label = "Light Group"
-    bl_context = "world"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.world
-
-    def draw(self, context):
-        draw_light_group(self.column(), context.world, context.view_layer)
+        layer, scene = context.view_layer, context.scene
+        column = self.column().column(heading="Include", align=True)
+        column.prop(layer, "use_sky", text="Environment")
+        column.prop(layer, "use_solid", text="Surfaces")
+        column.prop(layer, "use_strand", text="Hair")
+        column = self.column().column(heading="Use", align=True)
+        for owner, name, text, asked in (
+            (layer, "use_motion_blur", "Motion Blur", scene.render.use_motion_blur),
+            (layer.janus, "use_denoising", "Denoising", scene.janus.use_denoising),
+        ):
+            row = column.row()
+            row.active = asked
+            row.prop(owner, name, text=text)
 
 
 CLASSES = (
@@ -215,6 +196,5 @@ CLASSES = (
     JANUS_VIEWLAYER_PT_passes_lightgroups,
     JANUS_UL_light_path_expressions,
     JANUS_VIEWLAYER_PT_passes_expressions,
-    JANUS_OBJECT_PT_lightgroup,
-    JANUS_WORLD_PT_lightgroup,
+    JANUS_VIEWLAYER_PT_filter,
 )

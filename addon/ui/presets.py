@@ -21,6 +21,17 @@ SAMPLING = (
     "denoising_prefilter",
     "denoising_quality",
 )
+VIEWPORT_SAMPLING = (
+    "preview_samples",
+    "use_preview_adaptive_sampling",
+    "preview_adaptive_threshold",
+    "preview_adaptive_min_samples",
+    "use_preview_denoising",
+    "preview_denoising_start_sample",
+    "preview_denoising_input_passes",
+    "preview_denoising_prefilter",
+    "preview_denoising_quality",
+)
 LIGHT_PATHS = (
     "max_bounces",
     "diffuse_bounces",
@@ -45,6 +56,12 @@ class JANUS_PT_sampling_presets(Presets, bpy.types.Panel):
     preset_add_operator = "janus.sampling_preset_add"
 
 
+class JANUS_PT_viewport_sampling_presets(Presets, bpy.types.Panel):
+    bl_label = "Viewport Sampling Presets"
+    preset_subdir = "janus/viewport_sampling"
+    preset_add_operator = "janus.viewport_sampling_preset_add"
+
+
 class JANUS_PT_light_paths_presets(Presets, bpy.types.Panel):
     bl_label = "Light Paths Presets"
     preset_subdir = "janus/light_paths"
@@ -65,6 +82,16 @@ class JANUS_OT_sampling_preset_add(AddPreset, bpy.types.Operator):
     preset_values = [f"janus.{name}" for name in SAMPLING]
 
 
+class JANUS_OT_viewport_sampling_preset_add(AddPreset, bpy.types.Operator):
+    """Add a viewport sampling preset"""
+
+    bl_idname = "janus.viewport_sampling_preset_add"
+    bl_label = "Add Viewport Sampling Preset"
+    preset_menu = "JANUS_PT_viewport_sampling_presets"
+    preset_subdir = "janus/viewport_sampling"
+    preset_values = [f"janus.{name}" for name in VIEWPORT_SAMPLING]
+
+
 class JANUS_OT_light_paths_preset_add(AddPreset, bpy.types.Operator):
     """Add a preset of bounces and clamping"""
 
@@ -77,8 +104,10 @@ class JANUS_OT_light_paths_preset_add(AddPreset, bpy.types.Operator):
 
 CLASSES = (
     JANUS_PT_sampling_presets,
+    JANUS_PT_viewport_sampling_presets,
     JANUS_PT_light_paths_presets,
     JANUS_OT_sampling_preset_add,
+    JANUS_OT_viewport_sampling_preset_add,
     JANUS_OT_light_paths_preset_add,
 )
 

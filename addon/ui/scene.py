@@ -8,7 +8,11 @@ from ..sync.settings import active_views, merges
 from .diagnostics import draw_text
 from .engine_panels import JanusPanel
 from .passes import draw_problem
-from .presets import JANUS_PT_light_paths_presets, JANUS_PT_sampling_presets
+from .presets import (
+    JANUS_PT_light_paths_presets,
+    JANUS_PT_sampling_presets,
+    JANUS_PT_viewport_sampling_presets,
+)
 
 
 class JANUS_RENDER_PT_sampling(JanusPanel, bpy.types.Panel):
@@ -16,7 +20,9 @@ class JANUS_RENDER_PT_sampling(JanusPanel, bpy.types.Panel):
     bl_context = "render"
 
     def draw(self, context):
-        self.column().prop(context.scene.janus, "seed")
+        row = self.column().row(align=True)
+        row.prop(context.scene.janus, "seed")
+        row.prop(context.scene.janus, "use_animated_seed", text="", icon="TIME")
 
 
 def draw_samples(column, janus, prefix: str) -> None:
@@ -38,6 +44,9 @@ def draw_samples(column, janus, prefix: str) -> None:
 class JANUS_RENDER_PT_sampling_viewport(JanusPanel, bpy.types.Panel):
     bl_label = "Viewport"
     bl_parent_id = "JANUS_RENDER_PT_sampling"
+
+    def draw_header_preset(self, context):
+        JANUS_PT_viewport_sampling_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
         draw_samples(self.column(), context.scene.janus, "preview_")
@@ -191,58 +200,6 @@ class JANUS_RENDER_PT_bidirectional(JanusPanel, bpy.types.Panel):
         row.prop(janus, "merge_radius")
 
 
-class JANUS_RENDER_PT_film(JanusPanel, bpy.types.Panel):
-    bl_label = "Film"
-    bl_context = "render"
-
-    def draw(self, context):
-        janus = context.scene.janus
-        column = self.column()
-        column.prop(janus, "film_exposure")
-        column.prop(janus, "pixel_filter_type", text="Pixel Filter")
-        if janus.pixel_filter_type != "BOX":
-            column.prop(janus, "filter_width", text="Width")
-
-
-class JANUS_RENDER_PT_film_transparency(JanusPanel, bpy.types.Panel):
-    bl_label = "Transparent"
-    bl_parent_id = "JANUS_RENDER_PT_film"
-
-    def draw_header(self, context):
-        self.layout.prop(context.scene.render, "film_transparent", text="")
-
-    def draw(self, context):
-        janus = context.scene.janus
-        column = self.column()
-        column.active = context.scene.render.film_transparent
-        column.prop(janus, "film_transparent_glass")
-        row = column.row()
-        row.active = janus.film_transparent_glass
-        row.prop(janus, "film_transparent_roughness")
-
-
-class JANUS_RENDER_PT_performance(JanusPanel, bpy.types.Panel):
-    bl_label = "Performance"
-    bl_context = "render"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context):
-        render = context.scene.render
-        column = self.column()
-        column.prop(render, "threads_mode")
-        threads = column.column()
-        threads.enabled = render.threads_mode == "FIXED"
-        threads.prop(render, "threads")
-
-
-class JANUS_RENDER_PT_performance_final_render(JanusPanel, bpy.types.Panel):
-    bl_label = "Final Render"
-    bl_parent_id = "JANUS_RENDER_PT_performance"
-
-    def draw(self, context):
-        self.column().prop(context.scene.render, "use_persistent_data", text="Persistent Data")
-
-
 class JANUS_RENDER_PT_stereoscopy(JanusPanel, bpy.types.Panel):
     """Of files that come with it: it has to be switched off."""
 
@@ -291,10 +248,6 @@ CLASSES = (
     JANUS_RENDER_PT_light_paths_max_bounces,
     JANUS_RENDER_PT_light_paths_clamping,
     JANUS_RENDER_PT_bidirectional,
-    JANUS_RENDER_PT_film,
-    JANUS_RENDER_PT_film_transparency,
-    JANUS_RENDER_PT_performance,
-    JANUS_RENDER_PT_performance_final_render,
     JANUS_RENDER_PT_stereoscopy,
     JANUS_VIEWLAYER_PT_override,
 )

@@ -21,24 +21,13 @@ REFUSED = {
     "PRINCIPLED_VOLUME": "volume; named for the material",
     "SCRIPT": "OSL",
     "SUBSURFACE_SCATTERING": "subsurface scattering",
-    "ShaderNodeRadialTiling": "procedural texture",
-    "TEX_BRICK": "procedural texture",
-    "TEX_CHECKER": "procedural texture",
-    "TEX_GABOR": "procedural texture",
-    "TEX_GRADIENT": "procedural texture",
     "TEX_IES": "beams of IES files",
-    "TEX_MAGIC": "procedural texture",
-    "TEX_NOISE": "procedural texture",
     "TEX_POINTDENSITY": "volume",
-    "TEX_VORONOI": "procedural texture",
-    "TEX_WAVE": "procedural texture",
-    "TEX_WHITE_NOISE": "procedural texture",
     "VECTOR_DISPLACEMENT": "displacement; named for the material",
     "VOLUME_ABSORPTION": "volume; named for the material",
     "VOLUME_COEFFICIENTS": "volume; named for the material",
     "VOLUME_INFO": "volume",
     "VOLUME_SCATTER": "volume; named for the material",
-    "WAVELENGTH": "not yet",
     "WIREFRAME": "not yet",
 }
 NOT_FOR_CYCLES = {"EEVEE_SPECULAR", "OUTPUT_LINESTYLE", "SHADERTORGB", "SQUEEZE", "UVALONGSTROKE"}
@@ -55,11 +44,8 @@ FLATTENED = {
 RENAMED = {"DIFFUSE_BSDF": "BSDF_DIFFUSE"}
 # Sockets that matter only together with an input that is left out and named.
 IDLE_SOCKETS = {
-    "BSDF_GLASS": {"Thin Film IOR"},
-    "BSDF_METALLIC": {"Thin Film IOR"},
     "BSDF_PRINCIPLED": {
         *("Subsurface Radius", "Subsurface Scale", "Subsurface IOR", "Subsurface Anisotropy"),
-        "Thin Film IOR",
     },
     # Of Huang's model, which is named.
     "BSDF_HAIR_PRINCIPLED": {"Aspect Ratio", "R lobe", "TT lobe", "TRT lobe"},
@@ -79,7 +65,9 @@ IDLE_ITEMS = {
         *("BURLEY", "RANDOM_WALK", "RANDOM_WALK_SKIN", "RANDOM_WALK_LEGACY"),
     },
 }
+FILMS = "films before 5.0 have the colours of 5.0"
 REMARKS = {
+    **dict.fromkeys(("BSDF_GLASS", "BSDF_METALLIC", "BSDF_PRINCIPLED"), FILMS),
     "ATTRIBUTE": "rotations on edges, and instances in instances, are named; before 4.5 also "
     "what Geometry Nodes store on instances",
     "BSDF_HAIR": "on meshes named; where Cycles looks for lamps it leaves out a part of it",

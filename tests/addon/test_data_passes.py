@@ -99,6 +99,23 @@ def test_cryptomatte_says_what_its_numbers_mean(scene, layer, core, tmp_path):
         assert np.allclose(np.median(pictures[name]), np.median(theirs[name]), rtol=0.1)
 
 
+def test_sample_counts_are_parts_of_all(scene, layer, core, tmp_path):
+    """Or else an editor of images shows white."""
+    add_square()
+    scene.janus.samples = scene.cycles.samples = 8
+    scene.cycles.use_adaptive_sampling = False
+    for engine in ("JANUS", "CYCLES"):
+        scene.render.engine = engine
+        pictures, _ = saved(scene, tmp_path / "counts.exr")
+        assert np.all(pictures["Debug Sample Count"] == 1.0)
+    scene.render.engine, scene.janus.samples = "JANUS", 256
+    scene.janus.use_adaptive_sampling, scene.janus.adaptive_threshold = True, 0.05
+    pictures, _ = saved(scene, tmp_path / "counts.exr")
+    assert (
+        0.0 < pictures["Debug Sample Count"].min() and pictures["Debug Sample Count"].max() == 1.0
+    )
+
+
 def test_uv_needs_no_material_that_reads_it(scene, layer, core, tmp_path):
     square = add_square()
     square.data.uv_layers.new(name="UVMap").data.foreach_set("uv", [0, 0, 1, 0, 1, 1, 0, 1])

@@ -51,7 +51,6 @@ def test_what_artists_need_is_open(rule, version):
         "RENDER_PT_color_management",
         "RENDER_PT_format",
         "RENDER_PT_output",
-        "RENDER_PT_simplify",
         "RENDER_PT_post_processing",
         "VIEWLAYER_PT_layer",
         "WORLD_PT_context_world",

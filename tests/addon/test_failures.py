@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from conftest import add_square, messages, part
+from conftest import CRASHES_AT_EXIT, add_square, messages, part
 from test_final import load_pixels, result_pixels
 
 
@@ -212,4 +212,4 @@ def test_registers_twice_under_another_name_without_a_core():
         command = [bpy.app.binary_path, "-b", "--factory-startup", "--python-expr", code]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert "all well" in done.stdout, done.stderr
-    assert done.returncode == 0
+    assert done.returncode == 0 or CRASHES_AT_EXIT

@@ -286,6 +286,18 @@ def test_stamp_is_in_the_file(scene, fake_core, tmp_path, file_format, suffix):
         assert value.encode() in content[position : position + 40]
 
 
+@pytest.mark.parametrize("settings", ["janus", "cycles"])
+def test_each_frame_may_have_noise_of_its_own(scene, fake_core, settings):
+    getattr(scene, settings).use_animated_seed = True
+    found = []
+    for seed, frame in ((7, 1), (7, 2), (7, 1), (8, 1)):
+        scene.janus.seed = seed
+        scene.frame_set(frame)
+        bpy.ops.render.render()
+        found.append(fake_core.settings.seed)
+    assert found[0] == found[2] and len(set(found)) == 3 and min(found) >= 0
+
+
 def test_capture_takes_the_same_way(scene, fake_core, monkeypatch, tmp_path):
     """With a capture path every call passes through the capturing builder, which saves them."""
     saved = []

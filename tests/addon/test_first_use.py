@@ -21,6 +21,7 @@ OWN = {
     "adaptive_threshold": 0.25,
     "adaptive_min_samples": 9,
     "time_limit": 60.0,
+    "use_animated_seed": True,
     "use_denoising": True,
     "denoising_quality": "FAST",
     "denoising_input_passes": "RGB_ALBEDO",
@@ -37,8 +38,9 @@ OF_VIEWPORTS = {
     "preview_denoising_prefilter": "ACCURATE",
     "preview_denoising_quality": "FAST",
 }
-# See test_denoised_render.py and test_adaptive.py.
-NOT_FOR_THE_CORE = {name for name in OWN if "denoising" in name} | {"use_adaptive_sampling"}
+# See test_denoised_render.py, test_adaptive.py and test_final.py.
+NOT_FOR_THE_CORE = {name for name in OWN if "denoising" in name}
+NOT_FOR_THE_CORE |= {"use_adaptive_sampling", "use_animated_seed"}
 CORE_NAMES = {
     "diffuse_bounces": "max_diffuse_bounces",
     "glossy_bounces": "max_glossy_bounces",

@@ -64,6 +64,17 @@ def test_values_and_properties(tree):
     assert "Weight" not in node["inputs"]  # internal, not available to users
 
 
+def test_what_older_blenders_compute_otherwise(tree):
+    """The graph says so: a description means the same in every version."""
+    magic, cells = add(tree, "TexMagic"), add(tree, "TexVoronoi")
+    tree.links.new(cells.outputs["Position"], magic.inputs["Vector"])
+    to_output(tree, magic.outputs["Color"])
+    _, nodes = flatten(tree)
+    version = bpy.app.version
+    assert ("old_points" in nodes[cells.name]["properties"]) == (version < (5, 0, 0))
+    assert ("wraps_unscaled" in nodes[magic.name]["properties"]) == (version < (5, 2, 0))
+
+
 def test_only_reachable_nodes_once(tree):
     shared = add(tree, "Fresnel", "Shared")
     mix = add(tree, "MixShader", "Mix")

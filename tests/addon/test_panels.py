@@ -56,7 +56,7 @@ def draw(name, **context):
     panel = getattr(bpy.types, name)
     stub = SimpleNamespace(layout=Layout())
     stub.column = lambda: panel.column(stub)
-    for helper in ("_draw_counts",):
+    for helper in ("_draw_counts", "suffix"):
         if hasattr(panel, helper):
             setattr(stub, helper, getattr(panel, helper))
     scene = bpy.context.scene
@@ -274,8 +274,36 @@ def test_denoising_is_greyed_with_the_reason(scene, monkeypatch, where):
 
 
 def test_a_view_layer_can_leave_denoising_out(scene):
-    assert draw("JANUS_VIEWLAYER_PT_filter") == ["use_motion_blur", "use_denoising"]
+    drawn = draw("JANUS_VIEWLAYER_PT_filter")
+    assert drawn == ["use_sky", "use_solid", "use_strand", "use_motion_blur", "use_denoising"]
     assert "use_denoising" in scene.view_layers[0].janus.bl_rna.properties
+
+
+def test_what_makes_scenes_lighter(scene):
+    names = ["simplify_subdivision", "simplify_child_particles"]
+    drawn = draw("JANUS_RENDER_PT_simplify_viewport")
+    assert drawn[:2] == names and set(drawn[2:]) <= {"use_simplify_normals"}
+    assert draw("JANUS_RENDER_PT_simplify_render") == [f"{name}_render" for name in names]
+
+
+def test_the_compositor_has_its_device(scene):
+    for device, more in (("CPU", []), ("GPU", ["compositor_precision"])):
+        scene.render.compositor_device = device
+        assert draw("JANUS_RENDER_PT_performance_compositor") == ["compositor_device", *more]
+
+
+def test_panels_stand_in_the_order_of_cycles(addon):
+    labels = {}
+    for panel in part("ui").CLASSES:
+        if hasattr(panel, "bl_context") and not hasattr(panel, "bl_parent_id") and panel.bl_label:
+            labels.setdefault(panel.bl_context, []).append(panel.bl_label)
+    assert labels["render"] == [
+        "Janus Report",  # below all others by its bl_order
+        *("Sampling", "Light Paths", "Bidirectional", "Simplify", "Motion Blur", "Film"),
+        "Performance",
+    ]
+    assert labels["view_layer"] == ["Override", "Passes", "Filter"]
+    assert labels["world"] == ["Preview", "Surface", "Mist Pass", "Ray Visibility", "Light Group"]
 
 
 def polled(name, **context):
@@ -298,10 +326,18 @@ def test_ray_visibility_of_objects(scene):
     empty.instance_type = "COLLECTION"
     assert polled(name, object=empty)
     assert bpy.types.OBJECT_PT_visibility.COMPAT_ENGINES >= {"JANUS"}
-    name = "JANUS_OBJECT_PT_mask"
-    assert draw(name, object=square) == ["is_shadow_catcher", "is_holdout"]
-    assert draw(name, object=lamp) == ["is_shadow_catcher"]
-    assert polled(name, object=lamp) and not polled(name, object=scene.camera)
+
+
+def test_shadow_catchers_are_below_holdouts(scene):
+    lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT"))
+
+    def drawn(obj, engine="JANUS"):
+        panel = SimpleNamespace(layout=Layout())
+        part("ui.data").draw_shadow_catcher(panel, SimpleNamespace(object=obj, engine=engine))
+        return panel.layout.drawn
+
+    assert drawn(lamp) == ["is_shadow_catcher"]
+    assert drawn(scene.camera) == drawn(lamp, "CYCLES") == []
 
 
 def test_ray_visibility_of_worlds(scene):

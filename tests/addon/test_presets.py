@@ -8,8 +8,8 @@ import pytest
 from conftest import part
 
 
-def shipped() -> list[str]:
-    folders = bpy.utils.preset_paths("janus/light_paths")
+def shipped(kind: str = "light_paths") -> list[str]:
+    folders = bpy.utils.preset_paths(f"janus/{kind}")
     return sorted(str(file) for folder in folders for file in Path(folder).glob("*.py"))
 
 
@@ -37,10 +37,22 @@ def test_the_default_is_the_default(scene):
         assert getattr(scene.janus, name) == scene.janus.bl_rna.properties[name].default
 
 
-@pytest.mark.parametrize("kind", ["sampling", "light_paths"])
+@pytest.mark.parametrize("kind", ["sampling", "viewport_sampling"])
+@pytest.mark.parametrize("name", ["Preview", "Final"])
+def test_sampling_is_as_in_cycles(scene, kind, name):
+    """Their presets of the same names, as far as Janus has the settings."""
+    (theirs,) = bpy.utils.preset_paths(f"cycles/{kind}")
+    for file in (Path(theirs) / f"{name}.py", *shipped(kind)):
+        if Path(file).stem == name:
+            exec(compile(Path(file).read_text(), file, "exec"), {"bpy": bpy})
+    for name in getattr(part("ui.presets"), kind.upper()):
+        if hasattr(scene.cycles, name) and "quality" not in name and "start" not in name:
+            assert getattr(scene.janus, name) == getattr(scene.cycles, name), name
+
+
+@pytest.mark.parametrize("kind", ["sampling", "viewport_sampling", "light_paths"])
 def test_a_preset_of_ones_own_comes_back(scene, kind, tmp_path, monkeypatch):
-    presets = part("ui.presets")
-    names = presets.SAMPLING if kind == "sampling" else presets.LIGHT_PATHS
+    names = getattr(part("ui.presets"), kind.upper())
 
     def user_resource(*_, path="", **__):
         (tmp_path / path).mkdir(parents=True, exist_ok=True)

@@ -69,3 +69,22 @@ def test_a_viewport_does_not_hide_why_a_render_failed(scene):
         assert said() == [("ERROR", "failed"), ("WARNING", message)]
     report.keep("Scene", "Layer", ["Layer"], log("INFO", "well"))
     assert said() == [("INFO", "well")]
+
+
+def test_lines_are_as_long_as_fits():
+    wrapped = part("ui.diagnostics").wrapped
+    text = "a line of words and oneverylongone at its end"
+    lines = wrapped(text, lambda line: len(line) <= 12)
+    assert lines == ["a line of", "words and", "oneverylongone", "at its end"]
+    assert wrapped("", lambda line: False) == [""]
+
+
+def test_panels_follow_the_report(scene):
+    diagnostics, report = part("ui.diagnostics"), part("report")
+    assert diagnostics.follow() > 0.0
+    before = list(diagnostics._seen)
+    log = report.DiagnosticsLog()
+    log.warning("something new")
+    report.keep(scene.name_full, "ViewLayer", ["ViewLayer"], log)
+    diagnostics.follow()
+    assert (diagnostics._seen != before) == bool(bpy.context.window_manager.windows)

@@ -141,13 +141,13 @@ def test_what_is_left_out_is_said_once_and_stays_said(world_of_things, core):
     material = bpy.data.materials["Tiles"]
     nodes = material.node_tree.nodes
     shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
-    noise = nodes.new("ShaderNodeTexNoise")
-    material.node_tree.links.new(noise.outputs[0], shader.inputs["Roughness"])
+    occlusion = nodes.new("ShaderNodeAmbientOcclusion")
+    material.node_tree.links.new(occlusion.outputs[0], shader.inputs["Roughness"])
     bpy.context.view_layer.update()
     eye = Eye(core)
     eye.wait()
     said = dict(eye.viewport.log.counts)
-    assert any(entry.node == noise.name for entry in said)
+    assert any(entry.node == occlusion.name for entry in said)
     for x in (0.1, 0.2):  # the view turns
         world_of_things.camera.location.x += x
         bpy.context.view_layer.update()
@@ -159,7 +159,7 @@ def test_what_is_left_out_is_said_once_and_stays_said(world_of_things, core):
     eye.wait()
     assert eye.viewport.log.counts == said
     with followed_by(eye):
-        nodes.remove(noise)
+        nodes.remove(occlusion)
     eye.wait()
     assert not any(entry.node for entry in eye.viewport.log.counts)
 
@@ -208,6 +208,14 @@ def test_pauses_and_goes_on(world_of_things, core):
     assert eye.viewport._session.wait(5.0)
     world_of_things.janus.preview_samples = SAMPLES
     assert np.array_equal(eye.wait(), before)
+
+
+def test_a_finished_picture_outlives_a_pause(world_of_things, core):
+    eye = Eye(core)
+    before = eye.wait()
+    session = eye.viewport._session
+    eye.viewport.pause()
+    assert np.array_equal(eye.wait(), before) and eye.viewport._session is session
 
 
 def test_renders_say_that_they_run(scene, fake_core):

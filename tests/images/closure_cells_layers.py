@@ -119,6 +119,39 @@ def beckmann_cells() -> None:
         each(f"Beckmann {kind}", kind, {**fixed, "Roughness": 0.4}, Normal=(bumped, bent))
 
 
+def film_cells() -> None:
+    thick = (0.05, 0.5, 150.0, 400.0, 1200.0)
+    index = (0.8, 1.33, 2.0)
+    for distribution in GGX:
+        base = {"distribution": distribution, "Roughness": 0.2}
+        grid(f"Bubble {distribution}", "BsdfGlass", base, Thin_Film_Thickness=thick)
+        plastic = {**base, "Base_Color": RED}
+        layered = f"Film {distribution}"
+        grid(layered, "BsdfPrincipled", plastic, Thin_Film_Thickness=thick, Metallic=(0.0, 1.0))
+        gold = {**base, "IOR": (0.2, 0.45, 1.4), "Extinction": (3.5, 2.4, 1.9)}
+        gold["fresnel_type"] = "PHYSICAL_CONDUCTOR"
+        grid(f"Film gold {distribution}", "BsdfMetallic", gold, Thin_Film_Thickness=(150.0, 500.0))
+        each(
+            *(f"Film metal {distribution}", "BsdfMetallic", {**base, "Thin_Film_Thickness": 350.0}),
+            Edge_Tint=(VIVID, BLUE),
+            Base_Color=(WHITE, RED),
+            Thin_Film_IOR=index,
+        )
+        filmed = {**base, "Thin_Film_Thickness": 380.0}
+        grid(f"Bubble {distribution}", "BsdfGlass", filmed, Thin_Film_IOR=index, IOR=(1.4, 0.8))
+        clear = {**filmed, "Transmission_Weight": 1.0}
+        grid(f"Film clear {distribution}", "BsdfPrincipled", clear, Specular_Tint=(WHITE, BLUE))
+        each(
+            *(layered, "BsdfPrincipled", filmed),
+            Thin_Film_Thickness=(-10.0, ramp(-50.0, 900.0)),
+            IOR=(1.0, 2.2, 0.7),
+            Specular_IOR_Level=(0.0, 1.5),
+            Specular_Tint=(RED, BRIGHT),
+            Coat_Weight=(0.7,),
+            Roughness=(0.0, 0.6),
+        )
+
+
 def tint_cells() -> None:
     kind = "BsdfPrincipled"
     for distribution in GGX:
@@ -186,5 +219,6 @@ def add_layers() -> None:
     metallic_cells()
     anisotropic_cells()
     beckmann_cells()
+    film_cells()
     tint_cells()
     cover_cells()

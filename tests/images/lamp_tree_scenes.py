@@ -61,6 +61,13 @@ def tinted(t):
     return emission(t, t.out("Blackbody", {0: warm}), front)
 
 
+def dappled(t):
+    """Textures where nothing is linked to them, and by the direction."""
+    noise = t.out("TexNoise", {"Scale": 2.0, "Distortion": 0.5}, "Color")
+    rings = {"Vector": t.coordinate("Normal"), "Scale": 0.4}
+    return emission(t, noise, t.out("TexWave", rings, "Fac", wave_type="RINGS"))
+
+
 COORDINATES = [
     *(("TexCoord", name) for name in ("Normal", "UV", "Object")),
     *(("NewGeometry", name) for name in ("Position", "Incoming")),
@@ -80,6 +87,8 @@ TREES = {
     "area_textured": ("area", textured),
     "point_surroundings": ("point", surroundings),
     "point_tinted": ("point_soft", tinted),
+    "point_dappled": ("point_soft", dappled),
+    "area_dappled": ("area", dappled),
 }
 CASES = {
     **{

@@ -132,6 +132,8 @@ OLDER = (
     ((4, 5), "instancer nodes"),  # Python cannot ask; named
     ((4, 5), "bump by coordinate Normal"),  # the normal has no slope
     ((4, 5), "pieces bump by coordinate Normal"),
+    ((4, 5), "noise 3D far 1e+20"),  # where floats are coarse, remainders are what they like
+    ((4, 5), "noise 4D far 1e+20"),
     ((5, 0), "attribute GEOMETRY tangent_sign"),  # 0, unless tangents are asked for as well
     ((5, 0), "image alpha in Rec.1886 CHANNEL_PACKED"),  # divided by an alpha that does not cover
 )
@@ -151,12 +153,19 @@ def add_cases() -> None:
         return
     import bpy
 
-    from . import node_cases_groups, node_cases_images, node_cases_places, node_cases_versions
+    from . import (
+        node_cases_groups,
+        node_cases_images,
+        node_cases_places,
+        node_cases_textures,
+        node_cases_versions,
+    )
 
     math_cases()
     color_cases()
     node_cases_places.add_cases()
     node_cases_images.add_cases()
+    node_cases_textures.add_cases()
     node_cases_groups.add_cases()
     node_cases_versions.add_cases()
     node_cases_places.sky_cases()

@@ -19,9 +19,11 @@ VALUES = (
     *("HueSaturation", "BrightContrast", "Invert", "RGBToBW", "ValToRGB", "RGBCurve", "FloatCurve"),
     *("VectorCurve", "Normal", "Blackbody", "Value", "RGB", "TexImage", "TexEnvironment"),
     *("TexCoord", "UVMap", "Attribute", "VertexColor", "NewGeometry", "Tangent", "ObjectInfo"),
-    *("CameraData", "Fresnel", "LayerWeight", "NormalMap", "Bump"),
+    *("CameraData", "Fresnel", "LayerWeight", "NormalMap", "Bump", "Wavelength", "TexWhiteNoise"),
+    *("TexNoise", "TexVoronoi", "TexGabor", "RadialTiling", "TexGradient", "TexChecker"),
+    *("TexMagic", "TexBrick", "TexWave"),
 )
-REFUSED = ("TexNoise", "TexChecker", "Wireframe", "Wavelength", "LightPath", "ParticleInfo")
+REFUSED = ("AmbientOcclusion", "Bevel", "Wireframe", "LightPath", "ParticleInfo", "PointInfo")
 SHADERS = ("BsdfDiffuse", "Emission", "MixShader")
 ATTRIBUTES = ("Float", "Edge Bool", "Vector", "Color", "Face", "Pair", "Missing", "Number", "Layer")
 SOCKETS = ("Float", "Int", "Bool", "Vector", "Color")
@@ -79,7 +81,14 @@ class Maker:
         if choice < 0.1:
             return [tree.nodes.new(f"ShaderNode{self._random.choice(SHADERS)}")]
         names = REFUSED if self._refused and choice < 0.2 else VALUES
-        return [tree.nodes.new(f"ShaderNode{self._random.choice(names)}")]
+        return [tree.nodes.new(f"ShaderNode{self._random.choice(self._known(names))}")]
+
+    @staticmethod
+    def _known(names) -> list[str]:
+        """Without those that this Blender does not have."""
+        import bpy
+
+        return [name for name in names if hasattr(bpy.types, f"ShaderNode{name}")]
 
     @staticmethod
     def _has_zones() -> bool:
@@ -123,6 +132,10 @@ class Maker:
                 setattr(node, p.identifier, self._random.choice(items))
             elif p.type == "BOOLEAN":
                 setattr(node, p.identifier, self._random.random() < 0.5)
+            elif node.type in ("TEX_MAGIC", "TEX_BRICK") and p.type in ("INT", "FLOAT"):
+                low, high = p.soft_min, p.soft_max
+                x = self._random.uniform(low, high)
+                setattr(node, p.identifier, round(x) if p.type == "INT" else x)
         if node.type == "ATTRIBUTE":
             node.attribute_name = self._random.choice(ATTRIBUTES)
         elif node.type in ("TEX_IMAGE", "TEX_ENVIRONMENT"):

@@ -29,7 +29,7 @@ STEPS = (1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 3e-3, 5e-3)  # what is stored is one of t
 def sheets(tmp_path_factory):
     folder = tmp_path_factory.mktemp("nodes")
     command = [sys.executable, node_scenes.__file__, str(folder)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stdout + done.stderr
     result = json.loads((folder / "sheets.json").read_text())
     for number, sheet in enumerate(result):

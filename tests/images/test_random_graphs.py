@@ -17,14 +17,20 @@ COUNT = 2048 if "JANUS_FULL" in os.environ else 256
 # Sheets are written as floats around LIFT: that much of a value is lost.
 FLOOR = 0.05
 # What Janus knows to be different, by seed: why.
-NO_LENGTH = "Cycles' Normal node divides by the length of a vector that has none"
+ROUNDED = "textures of numbers' last digits"
+STEEP = "differs inside a pixel, from Cycles to Cycles as much as to Janus"
 KNOWN = {
-    251: NO_LENGTH,
-    812: "a Bump without height, of whose normal Cycles learns late that it is a constant",
-    1518: NO_LENGTH,
-    1572: NO_LENGTH,
-    1795: NO_LENGTH,
-    1862: "an infinite limit of a Map Range",
+    35: "a closure that feeds a colour of a Repeat zone",
+    121: ROUNDED,
+    256: STEEP,
+    393: "a Bump by a texture of constants, which Cycles does not know to be one",
+    565: "0 to the power of 0, which Blender computes before Cycles sees it",
+    626: ROUNDED,
+    695: STEEP,
+    743: STEEP,
+    1079: ROUNDED,
+    1498: "Fresnel by a normal that is five million long",
+    1898: STEEP,
 }
 
 

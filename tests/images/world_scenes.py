@@ -112,6 +112,13 @@ def sharp_sun(t):
     )
 
 
+def clouds(t):
+    """Textures where nothing is linked to them."""
+    noise = t.out("TexNoise", {"Scale": 3.0, "Detail": 1.5})
+    cells = t.out("TexVoronoi", {"Scale": 2.0}, "Color")
+    return background(t, cells, noise)
+
+
 def by_ray(output: str):
     def build(t):
         other = background(t, (0.9, 0.2, 0.1, 1.0))
@@ -121,13 +128,17 @@ def by_ray(output: str):
     return build
 
 
-TREES = (gradient, mixed, graded, stretched, ball, cubic, flat, added, emission, sharp_sun)
+TREES = (
+    *(gradient, mixed, graded, stretched, ball, cubic, flat, added, emission, sharp_sun),
+    clouds,
+)
 LIT = {
     "gradient": gradient,
     "mixed": mixed,
     "graded": graded,
     "added": added,
     "sharp_sun": sharp_sun,
+    "clouds": clouds,
     "by_camera": by_ray("Is Camera Ray"),
 }
 BY_RAY = {

@@ -164,8 +164,7 @@ std::vector<float> random_per_island(size_t count, const std::vector<glm::uvec2>
   }
   std::vector<float> result(count);
   for (uint32_t i = 0; i < count; ++i) {
-    result[i] = static_cast<float>(jenkins_hash(islands.find(i))) *
-                (1.0f / static_cast<float>(std::numeric_limits<uint32_t>::max()));
+    result[i] = jenkins_number(std::array{islands.find(i)});
   }
   return result;
 }

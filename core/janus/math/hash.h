@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 namespace janus {
@@ -26,13 +28,34 @@ inline uint64_t mix64(uint64_t x) {
   return x;
 }
 
-// Jenkins' lookup3 of a number, and of noughts behind it up to `words`: Cycles' hash.
-inline uint32_t jenkins_hash(uint32_t x, uint32_t words = 1) {
+// Jenkins' lookup3 of one to four words: Cycles' hash.
+template <size_t N>
+constexpr uint32_t jenkins_hash(const std::array<uint32_t, N>& words) {
+  static_assert(N >= 1 && N <= 4);
+  uint32_t a = 0xdeadbeefU + (static_cast<uint32_t>(N) << 2) + 13U, b = a, c = a;
+  a += words[0];
+  if constexpr (N > 1) {
+    b += words[1];
+  }
+  if constexpr (N > 2) {
+    c += words[2];
+  }
+  if constexpr (N > 3) {
+    const auto stir = [](uint32_t& to, uint32_t& from, uint32_t& next, int bits) {
+      to = (to - from) ^ std::rotl(from, bits);
+      from += next;
+    };
+    stir(a, c, b, 4);
+    stir(b, a, c, 6);
+    stir(c, b, a, 8);
+    stir(a, c, b, 16);
+    stir(b, a, c, 19);
+    stir(c, b, a, 4);
+    a += words[3];
+  }
   const auto mix = [](uint32_t& to, uint32_t from, int bits) {
     to = (to ^ from) - std::rotl(from, bits);
   };
-  uint32_t a = 0xdeadbeefU + (words << 2) + 13U, b = a, c = a;
-  a += x;
   mix(c, b, 14);
   mix(a, c, 11);
   mix(b, a, 25);
@@ -41,6 +64,52 @@ inline uint32_t jenkins_hash(uint32_t x, uint32_t words = 1) {
   mix(b, a, 14);
   mix(c, b, 24);
   return c;
+}
+
+// The same as a number in [0, 1].
+template <size_t N>
+constexpr float jenkins_number(const std::array<uint32_t, N>& words) {
+  return static_cast<float>(jenkins_hash(words)) * (1.0f / 4294967295.0f);
+}
+// Of the bits of numbers.
+template <class... Floats>
+constexpr float jenkins_number(float first, Floats... more) {
+  return jenkins_number(
+      std::array{std::bit_cast<uint32_t>(first), std::bit_cast<uint32_t>(more)...});
+}
+
+// Permuted congruential generators of two to four words (Jarzynski & Olano, Hash Functions for GPU
+// Rendering), as Cycles has them: signs are shifted in, and the result has 31 bits.
+template <size_t N>
+constexpr std::array<uint32_t, N> pcg_hash(std::array<uint32_t, N> v) {
+  static_assert(N >= 2 && N <= 4);
+  for (uint32_t& x : v) {
+    x = x * 1664525U + 1013904223U;
+  }
+  const auto stir = [&v] {
+    if constexpr (N == 2) {
+      v[0] += v[1] * 1664525U;
+      v[1] += v[0] * 1664525U;
+    } else if constexpr (N == 3) {
+      v[0] += v[1] * v[2];
+      v[1] += v[2] * v[0];
+      v[2] += v[0] * v[1];
+    } else {
+      v[0] += v[1] * v[3];
+      v[1] += v[2] * v[0];
+      v[2] += v[0] * v[1];
+      v[3] += v[1] * v[2];
+    }
+  };
+  stir();
+  for (uint32_t& x : v) {
+    x ^= static_cast<uint32_t>(static_cast<int32_t>(x) >> 16);
+  }
+  stir();
+  for (uint32_t& x : v) {
+    x &= 0x7fffffffU;
+  }
+  return v;
 }
 
 inline uint32_t hash_combine(uint32_t seed, uint32_t value) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
 
@@ -26,6 +27,10 @@ inline constexpr float kInvPi = 1.0f / kPi;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 inline float sqr(float x) { return x * x; }
+// As x86 processors round to integers, towards 0: what does not fit in is the smallest.
+inline int32_t to_integer(float x) {
+  return x >= -2147483648.0f && x < 2147483648.0f ? static_cast<int32_t>(x) : INT32_MIN;
+}
 inline float length2(vec3 v) { return dot(v, v); }
 inline float max_component(vec3 v) { return std::max(v.x, std::max(v.y, v.z)); }
 inline float max_abs_component(vec3 v) { return max_component(glm::abs(v)); }

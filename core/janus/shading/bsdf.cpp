@@ -256,10 +256,10 @@ std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen,
   // The two walks measure their discrete event against different solid angles: beside the choice of
   // the lobe, the ratio of the densities is the jacobian.
   const float own = chosen * event->probability;
-  float other = event->one_way || one_way_ ? 0.0f : pmf(lobe, grazing(to_ng)) * event->probability;
+  float other = event->one_way || one_way_ ? 0.0f : pmf(lobe, grazing(to_ng)) * event->reverse;
   Rgb color = event->color * covers_transmittance(lobe, ng_, wo);
   if (reshading_ && !alike(*reshading_, from, to)) {
-    reshade_event(lobe, from, u, mode, to, event->probability, color, other);
+    reshade_event(lobe, from, u, mode, to, *event, color, other);
   }
   // A light walk gains the jacobian of the delta and the cosines of the adjoint (Veach 1997, 5.3).
   Rgb weight = color / chosen;
@@ -281,7 +281,7 @@ std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen,
 // density of the opposite event (`other`), and on light walks, whose value is seen from there, the
 // `color`.
 void BsdfView::reshade_event(const Lobe& lobe, vec3 from, float u, TransportMode mode, vec3 to,
-                             float probability, Rgb& color, float& other) const {
+                             const DeltaEvent& event, Rgb& color, float& other) const {
   // The lobe's counterpart: the same kind of surface, in the same place among those of its kind.
   const auto same = [&](const Lobe& l) {
     return is_delta(l) && l.type == lobe.type && std::abs(l.ior - lobe.ior) < 1e-6f &&
@@ -302,13 +302,13 @@ void BsdfView::reshade_event(const Lobe& lobe, vec3 from, float u, TransportMode
     return;
   }
   if (other > 0.0f) {
-    other = pmf(*found, grazing(dot(to, ng_))) * probability;
+    other = pmf(*found, grazing(dot(to, ng_))) * event.reverse;
   }
   if (mode == TransportMode::Importance) {
-    const auto event = sample_delta(*found, ng_, from, u, mode);
-    color = event && dot(event->direction, to) > 0.9999f
-                ? event->color * covers_transmittance(*found, ng_, to) *
-                      (event->probability / probability)
+    const auto same_event = sample_delta(*found, ng_, from, u, mode);
+    color = same_event && dot(same_event->direction, to) > 0.9999f
+                ? same_event->color * covers_transmittance(*found, ng_, to) *
+                      (same_event->probability / event.probability)
                 : Rgb(0.0f);
   }
 }

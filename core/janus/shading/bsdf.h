@@ -47,6 +47,7 @@ struct BsdfEval {
 };
 
 class Bsdf;
+struct DeltaEvent;
 struct Directions;
 struct Reshading;
 
@@ -105,7 +106,7 @@ class BsdfView {
                                          TransportMode mode) const;
   void reshade(const Directions& d, BsdfEval& sum) const;
   void reshade_event(const Lobe& lobe, vec3 from, float u, TransportMode mode, vec3 to,
-                     float probability, Rgb& color, float& other) const;
+                     const DeltaEvent& event, Rgb& color, float& other) const;
 
   Directions directions(vec3 wo, vec3 wi) const;
 

@@ -37,7 +37,9 @@ FacetWidths stretched_widths(const ClosureArguments& a, float alpha, int anisotr
 // The lobe with the facets that the node's distribution has.
 Lobe of_distribution(const ClosureArguments& a, const Lobe& lobe);
 
-inline constexpr LeftOut kThinFilm = {"Thin Film Thickness", 0.0f,
-                                      "thin film is not supported yet; it is left out"};
+// The lobe below the film that the inputs `thickness` and `ior` say.
+inline Lobe below_film(const ClosureArguments& a, const Lobe& lobe, int thickness, int ior) {
+  return with_film(lobe, a.number(thickness), a.number(ior));
+}
 
 }  // namespace janus

@@ -100,21 +100,20 @@ void check(const NodeReader& node) {
 }  // namespace glossy
 
 namespace glass {
-enum Input { Color, Roughness, Ior };
+enum Input { Color, Roughness, Ior, NormalInput, FilmThickness, FilmIor };
 constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 1.0f},
                                   {"Roughness", Float, 0.0f},
                                   {"IOR", Float, 1.5f},
                                   {"Normal", Vector, Implicit::Normal},
-                                  {"Thin Film Thickness", Float, 0.0f}};
+                                  {"Thin Film Thickness", Float, 0.0f},
+                                  {"Thin Film IOR", Float, 1.33f}};
 
 void add(const ClosureArguments& a, ShadingResult& out) {
   const Lobe lobe =
       glass_lobe(Rgb(a.share()), a.positive_color(Color), true, usable_index(a.number(Ior)),
                  sqr(a.fraction(Roughness)), a.multiscatter());
-  add_lobe(a, of_distribution(a, lobe), out);
+  add_lobe(a, below_film(a, of_distribution(a, lobe), FilmThickness, FilmIor), out);
 }
-
-constexpr LeftOut kLeftOut[] = {kThinFilm};
 }  // namespace glass
 
 namespace refraction {
@@ -171,7 +170,9 @@ enum Input {
   Anisotropy,
   Rotation,
   NormalInput,
-  Tangent
+  Tangent,
+  FilmThickness,
+  FilmIor
 };
 constexpr SocketDecl kInputs[] = {{"Base Color", Color, vec3(0.617f, 0.577f, 0.540f)},
                                   {"Edge Tint", Color, vec3(0.695f, 0.726f, 0.770f)},
@@ -182,7 +183,8 @@ constexpr SocketDecl kInputs[] = {{"Base Color", Color, vec3(0.617f, 0.577f, 0.5
                                   {"Rotation", Float, 0.0f},
                                   {"Normal", Vector, Implicit::Normal},
                                   {"Tangent", Vector, Implicit::Tangent},
-                                  {"Thin Film Thickness", Float, 0.0f}};
+                                  {"Thin Film Thickness", Float, 0.0f},
+                                  {"Thin Film IOR", Float, 1.33f}};
 
 void add(const ClosureArguments& a, ShadingResult& out) {
   const FacetWidths widths =
@@ -194,10 +196,8 @@ void add(const ClosureArguments& a, ShadingResult& out) {
                                          a.positive_color(Extinction), widths, a.multiscatter())
                         : metal_lobe(weight, a.positive_color(BaseColor), widths, a.multiscatter(),
                                      a.positive_color(EdgeTint));
-  add_lobe(a, of_distribution(a, lobe), out);
+  add_lobe(a, below_film(a, of_distribution(a, lobe), FilmThickness, FilmIor), out);
 }
-
-constexpr LeftOut kLeftOut[] = {kThinFilm};
 }  // namespace metallic
 
 namespace sheen {
@@ -234,15 +234,13 @@ void add(const ClosureArguments& a, ShadingResult& out) {
 const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
     kGlossyClosure{
         &glossy::add, {.lobes = 1, .anisotropy = {glossy::Anisotropy, 0.0f}}, {}, &glossy::check},
-    kGlassClosure{&glass::add, {.transmits = true, .lobes = 1}, glass::kLeftOut},
+    kGlassClosure{&glass::add, {.transmits = true, .lobes = 1}},
     kRefractionClosure{&refraction::add, {.transmits = true, .lobes = 1}},
     kTranslucentClosure{&translucent::add, {.transmits = true, .lobes = 1}},
     kTransparentClosure{&transparent::add, {.transparent = true}},
     kHoldoutClosure{&holdout::add, {.holds_out = true}},
     kEmissionClosure{&emission::add, {.emits = true, .emission = {1, 0.0f}}},
-    kMetallicClosure{&metallic::add,
-                     {.lobes = 1, .anisotropy = {metallic::Anisotropy, 0.0f}},
-                     metallic::kLeftOut},
+    kMetallicClosure{&metallic::add, {.lobes = 1, .anisotropy = {metallic::Anisotropy, 0.0f}}},
     kSheenClosure{&sheen::add, {.lobes = 1}}, kToonClosure{&toon::add, {.lobes = 1}};
 
 const std::span<const SocketDecl> kDiffuseInputs(diffuse::kInputs), kGlossyInputs(glossy::kInputs),

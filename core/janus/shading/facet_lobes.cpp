@@ -21,16 +21,25 @@ Rgb moved_reflectance(float f, float eta, Rgb f0) {
   return f0 + (1.0f - f0) * position;
 }
 
+// The same for a film, whose reflectance `f` may be below the dielectric's: scaled, the less the
+// nearer it is to 1.
+Rgb scaled_reflectance(Rgb f, float eta, Rgb f0) {
+  const float straight = fresnel_normal(eta);
+  if (straight <= 1e-5f || f == Rgb(1.0f)) {
+    return f;
+  }
+  const Rgb s = glm::clamp((f - 1.0f) / (straight - 1.0f), 0.0f, 1.0f);
+  return f * (1.0f + s * (f0 / straight - 1.0f));
+}
+
 // Of a metal's term of Schlick with the tint of its edge: the mean over the hemisphere.
 Rgb mean_tinted_schlick(Rgb f0, Rgb edge) { return f0 + (1.0f - f0) / 21.0f - edge / 126.0f; }
 
 // The mean reflectance of a metal, by the term above through its values straight on and at the
 // edge.
 Rgb mean_conductor(Rgb n, Rgb k) {
-  constexpr float kEdge = 1.0f / 7.0f;
-  const Rgb f0 = fresnel_conductor(1.0f, n, k), at_edge = fresnel_conductor(kEdge, n, k);
-  const Rgb edge = (f0 + (1.0f - f0) * schlick(kEdge) - at_edge) / edge_term(kEdge);
-  return glm::clamp(mean_tinted_schlick(f0, edge), 0.0f, 1.0f);
+  const Rgb f0 = fresnel_conductor(1.0f, n, k), at_edge = fresnel_conductor(kEdgeCosine, n, k);
+  return glm::clamp(mean_tinted_schlick(f0, edge_factor(f0, at_edge)), 0.0f, 1.0f);
 }
 
 // --- Multiple bounces ----------------------------------------------------------------------------
@@ -142,6 +151,8 @@ LobeEval evaluate_refraction(const Lobe& lobe, const Directions& d, vec3 n, vec3
   }
   const GlassEvents events(lobe, cos_ho, eta);
   const float pmf = 1.0f - events.pmf_reflect, common = cos_ho * cos_hi / scale2;
+  const float pmf_light =
+      film(lobe).exists() ? 1.0f - GlassEvents(lobe, cos_hi, 1.0f / eta).pmf_reflect : pmf;
   LobeEval out;
   const float cos_o = dot(d.wo, n), cos_i = -dot(d.wi, n);
   if (cos_o > 0.0f && cos_i > 0.0f && dot(h, n) > 0.0f) {
@@ -157,8 +168,8 @@ LobeEval evaluate_refraction(const Lobe& lobe, const Directions& d, vec3 n, vec3
   const float cos = dot(d.wi, n_light);
   if (cos > 0.0f && dot(d.wo, n_light) < 0.0f && dot(h, n_light) < 0.0f) {
     const Facets facets(lobe, n_light);
-    out.pdf_importance =
-        pmf * common * facets.distribution(h) / (cos * (1.0f + seen_lambda(facets, d.wi, cos)));
+    out.pdf_importance = pmf_light * common * facets.distribution(h) /
+                         (cos * (1.0f + seen_lambda(facets, d.wi, cos)));
   }
   return out;
 }
@@ -168,11 +179,17 @@ LobeEval evaluate_refraction(const Lobe& lobe, const Directions& d, vec3 n, vec3
 Rgb reflectance(const Lobe& lobe, float cos) {
   switch (lobe.type) {
     case LobeType::Metal:
-      return glm::clamp(
-          lobe.color + (1.0f - lobe.color) * schlick(cos) - lobe.edge * edge_term(cos), 0.0f, 1.0f);
+      return film(lobe).exists() ? film_on_metal(film(lobe), cos, lobe.color,
+                                                 tinted_schlick(kEdgeCosine, lobe.color, lobe.edge))
+                                 : tinted_schlick(cos, lobe.color, lobe.edge);
     case LobeType::Conductor:
-      return fresnel_conductor(cos, lobe.color, lobe.edge);
+      return film(lobe).exists() ? film_on_conductor(film(lobe), cos, lobe.color, lobe.edge)
+                                 : fresnel_conductor(cos, lobe.color, lobe.edge);
     case LobeType::Specular:
+      if (film(lobe).exists()) {
+        return scaled_reflectance(film_on_dielectric(film(lobe), cos, lobe.ior), lobe.ior,
+                                  lobe.color);
+      }
       return moved_reflectance(fresnel_dielectric(cos, lobe.ior), lobe.ior, lobe.color);
     case LobeType::Coat:
       return Rgb(fresnel_dielectric(cos, lobe.ior));
@@ -189,10 +206,15 @@ GlassEvents::GlassEvents(const Lobe& lobe, float cos, float eta) {
     pmf_reflect = 0.0f;
     return;
   }
-  const Rgb moved =
-      lobe.edge == Rgb(1.0f)
-          ? Rgb(f)
-          : moved_reflectance(f, eta, glm::min(fresnel_normal(eta) * lobe.edge, 1.0f));
+  const Rgb f0 = glm::min(fresnel_normal(eta) * lobe.edge, 1.0f);
+  Rgb moved(f);
+  if (film(lobe).exists()) {
+    // `eta` is 1 / ior from behind.
+    const ThinFilm seen{lobe.sigma, lobe.tilt * (eta == lobe.ior ? 1.0f : eta)};
+    moved = scaled_reflectance(film_on_dielectric(seen, cos, eta), eta, f0);
+  } else if (lobe.edge != Rgb(1.0f)) {
+    moved = moved_reflectance(f, eta, f0);
+  }
   reflected = lobe.tinted_reflection ? moved * lobe.color : moved;
   transmitted = (1.0f - moved) * lobe.color;
   const float r = average(reflected), t = average(transmitted);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "janus/shading/scatter.h"
+#include "janus/shading/thin_film.h"
 
 namespace janus {
 
@@ -11,6 +12,9 @@ namespace janus {
 LobeEval evaluate_facets(const Lobe& lobe, vec3 ng, const Directions& d);
 std::optional<vec3> sample_facets(const Lobe& lobe, vec3 ng, vec3 from, float u_event, vec2 u,
                                   TransportMode mode);
+
+// What lies on the facets of a lobe, none of Coat and Refraction.
+inline ThinFilm film(const Lobe& lobe) { return {lobe.sigma, lobe.tilt}; }
 
 // Fresnel term of a facet under the cosine `cos`, for lobes that only reflect.
 Rgb reflectance(const Lobe& lobe, float cos);

@@ -56,6 +56,18 @@ inline float edge_term(float cos) {
   return cos * schlick(cos) * std::clamp(1.0f - cos, 0.0f, 1.0f);
 }
 
+// Schlick's term, without that times `factor`; and the factor with which it is `at_edge` where the
+// cosine is 1/7. Numbers or colours.
+constexpr float kEdgeCosine = 1.0f / 7.0f;
+template <class T>
+T tinted_schlick(float cos, T f0, T factor) {
+  return glm::clamp(f0 + (1.0f - f0) * schlick(cos) - factor * edge_term(cos), T(0.0f), T(1.0f));
+}
+template <class T>
+T edge_factor(T f0, T at_edge) {
+  return (f0 + (1.0f - f0) * schlick(kEdgeCosine) - at_edge) / edge_term(kEdgeCosine);
+}
+
 // Reflectance of a metal of the index n + i k, in air, for unpolarised light (Born & Wolf,
 // "Principles of Optics", section 14.4.1).
 inline float fresnel_conductor(float cos_i, float n, float k) {

@@ -123,9 +123,7 @@ Value GraphCompiler::implicit(const SocketDecl& socket, uint16_t at) {
     case Implicit::Position:
       return emit(kPosition, {}, 0, at);
     case Implicit::Generated:
-      return seen_.of == SeenTree::Of::World  ? emit(kPosition, {}, 0, at)
-             : seen_.of == SeenTree::Of::Lamp ? emit(kObjectPoint, {}, 0, at)
-                                              : emit(kAttribute, {}, attribute("generated"), at);
+      return generated(at);
     case Implicit::Uv:
       return emit(kAttribute, {}, attribute("uv:"), at);
     case Implicit::Along:
@@ -141,6 +139,17 @@ Value GraphCompiler::implicit(const SocketDecl& socket, uint16_t at) {
       break;
   }
   return constant(socket.value, socket.type);
+}
+
+Value GraphCompiler::generated(uint16_t at) {
+  switch (seen_.of) {
+    case SeenTree::Of::World:
+      return emit(kPosition, {}, 0, at);
+    case SeenTree::Of::Lamp:
+      return emit(kObjectPoint, {}, 0, at);
+    default:
+      return emit(kAttribute, {}, attribute("generated"), at);
+  }
 }
 
 Value GraphCompiler::input(const NodeReader& reader, std::string_view identifier, uint16_t at) {

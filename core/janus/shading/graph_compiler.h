@@ -29,6 +29,8 @@ class GraphCompiler {
   const vec3* as_constant(Value value) const;
   // The value of a node's input at a point (0: the point itself), of its declared type.
   Value input(const NodeReader& reader, std::string_view identifier, uint16_t at);
+  // Coordinates of the texture space, which procedural textures take where nothing is linked.
+  Value generated(uint16_t at);
   void output(const Node& node, uint16_t at, std::string_view identifier, Value value);
   bool linked(const Node& node, std::string_view output) const;
   // The number of the first of the two points that lie `width` pixels to the side of the point;

@@ -27,8 +27,13 @@ float remaining(float albedo) { return std::clamp(1.0f - albedo, 0.0f, 1.0f); }
 
 Rgb layer_reflectance(const Lobe& lobe, float cos_o) {
   const float rough = roughness(lobe);
-  const Rgb f0 = lobe.type == LobeType::Coat ? Rgb(fresnel_normal(lobe.ior)) : lobe.color;
-  Rgb albedo = f0 + (1.0f - f0) * dielectric_position(rough, cos_o, lobe.ior);
+  Rgb albedo;
+  if (lobe.type == LobeType::Specular && film(lobe).exists()) {
+    albedo = reflectance(lobe, cos_o);  // as in Cycles, of smooth facets
+  } else {
+    const Rgb f0 = lobe.type == LobeType::Coat ? Rgb(fresnel_normal(lobe.ior)) : lobe.color;
+    albedo = f0 + (1.0f - f0) * dielectric_position(rough, cos_o, lobe.ior);
+  }
   if (lobe.multiscatter) {
     // Cycles leaves the energy scale out of the layer's albedo, but not the loss to its colour.
     const float single = reflection_albedo(rough, cos_o);

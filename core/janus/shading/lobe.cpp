@@ -91,11 +91,10 @@ Lobe glossy_lobe(Rgb weight, FacetWidths alpha, bool multiscatter, Rgb color) {
 }
 
 Lobe metal_lobe(Rgb weight, Rgb f0, FacetWidths alpha, bool multiscatter, Rgb edge) {
-  constexpr float kEdge = 1.0f / 7.0f;  // the cosine of 82 degrees
   Lobe out = facets_lobe(LobeType::Metal, weight, alpha, multiscatter);
   out.color = glm::clamp(f0, 0.0f, 1.0f);
-  const Rgb at_edge = out.color + (1.0f - out.color) * schlick(kEdge);
-  out.edge = at_edge * (1.0f - glm::clamp(edge, 0.0f, 1.0f)) / edge_term(kEdge);
+  const Rgb untinted = out.color + (1.0f - out.color) * schlick(kEdgeCosine);
+  out.edge = edge_factor(out.color, untinted * glm::clamp(edge, 0.0f, 1.0f));
   return out;
 }
 
@@ -144,6 +143,12 @@ Lobe refraction_lobe(Rgb weight, float ior, float alpha) {
   Lobe out = facets_lobe(LobeType::Refraction, weight, alpha, false);
   set_index(out, ior);
   return out;
+}
+
+Lobe with_film(Lobe lobe, float thickness, float ior) {
+  lobe.sigma = std::max(thickness, 0.0f);
+  lobe.tilt = std::max(ior, 1e-5f);
+  return lobe;
 }
 
 Lobe with_beckmann(Lobe lobe) {

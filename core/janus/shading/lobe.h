@@ -50,9 +50,9 @@ struct Lobe {
   uint32_t tangent;  // of facets of two widths, packed; see pack_direction()
   float ior;         // index of the back side relative to the front side
   // OrenNayar, Velvet: roughness. Fibres: how wide light spreads around them. Toon: the angle over
-  // which it fades. Coat: its share as a layer
+  // which it fades. Coat: its share as a layer. Other facets: thickness of the film on them, nm
   float sigma;
-  float tilt;  // fibres: of their scales, radians
+  float tilt;  // fibres: of their scales, radians. Facets: index of the film on them
   // Probability of choosing this lobe when sampling: from pmf_normal for a walk that arrives along
   // Ng to pmf_grazing (see Bsdf::finish).
   float pmf_normal, pmf_grazing;
@@ -116,6 +116,8 @@ Lobe coat_lobe(Rgb weight, float eta, float alpha, float share, Rgb tint);
 Lobe glass_lobe(Rgb weight, Rgb tint, bool tinted_reflection, float ior, float alpha,
                 bool multiscatter = false, Rgb f0_tint = Rgb(1.0f));
 Lobe refraction_lobe(Rgb weight, float ior, float alpha);
+// A lobe of facets (none of Coat and Refraction) below a thin film. `thickness`: nanometres.
+Lobe with_film(Lobe lobe, float thickness, float ior);
 // `lobe` with facets of Beckmann's distribution, which have no Multiscatter.
 Lobe with_beckmann(Lobe lobe);
 

@@ -10,6 +10,8 @@ Value NodeEmitter::input(std::string_view identifier, int at) {
   return compiler_.input(reader_, identifier, at == 0 ? at_ : static_cast<uint16_t>(at));
 }
 
+Value NodeEmitter::generated() { return compiler_.generated(at_); }
+
 // As in Cycles, one that varies does not count; then it is what the socket said without its link.
 float NodeEmitter::filter_width() {
   float width = 0.1f;

@@ -36,6 +36,7 @@ class NodeEmitter {
 
   // The value of an input, of its declared type. `at`: for a shifted input, which point.
   Value input(std::string_view identifier, int at = 0);
+  Value generated();
   // Of a node with shifted inputs: how far its points are, in pixels, and the number of the first
   // of the two; nullopt: too many nodes ask for others.
   float filter_width();

@@ -29,7 +29,7 @@ enum class Implicit {
   Normal,  // the shading normal, on the viewer's side
   Uv,      // the active UV map
   Position,
-  Generated,  // as Texture Coordinate has it: in worlds, the direction
+  Generated,  // texture space: of a world the direction, of a lamp the place in its space
   Along,      // on curves, their direction; elsewhere the first edge of the triangle
   Beside,     // the same, but elsewhere the second edge
   OnCurve,    // 1 on curves, else 0

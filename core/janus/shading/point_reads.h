@@ -10,6 +10,9 @@
 namespace janus {
 
 inline vec3 read_position(const Context& c) { return c.point.p; }
+inline vec3 read_object_point(const Context& c) {
+  return vec3(c.point.object->to_object * vec4(c.point.p, 1.0f));
+}
 inline vec3 read_normal(const Context& c) { return c.point.facing(c.point.ns); }
 inline vec3 read_attribute(const Context& c) { return vec3(c.point.attribute(c.data)); }
 
@@ -27,9 +30,7 @@ inline float read_on_curve(const Context& c) { return c.point.on_curve ? 1.0f : 
 
 // Cycles' hash of the curve.
 inline float read_strand(const Context& c, float elsewhere) {
-  return c.point.on_curve
-             ? static_cast<float>(jenkins_hash(c.point.triangle.face, 2)) / 4294967295.0f
-             : elsewhere;
+  return c.point.on_curve ? jenkins_number(std::array{c.point.triangle.face, 0U}) : elsewhere;
 }
 
 // From a direction of the object to one on its surface.
@@ -54,10 +55,8 @@ inline constexpr Operation kAlong = at_point<&read_along>;
 inline constexpr Operation kOnCurve = at_point<&read_on_curve>;
 inline constexpr Operation kStrand = at_point<&read_strand>;
 inline constexpr Operation kPosition = at_point<&read_position>;
+inline constexpr Operation kObjectPoint = at_point<&read_object_point>;
 inline constexpr Operation kFacingNormal = by_side<&read_normal>;
-inline constexpr Operation kObjectPoint = at_point<[](const Context& c) {
-  return vec3(c.point.object->to_object * vec4(c.point.p, 1.0f));
-}>;
 inline constexpr Operation kAttribute = at_point<&read_attribute>;  // `data`: its slot
 inline constexpr Operation kParametric = at_point<&read_parametric>;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "janus/shading/closure_parts.h"
+#include "janus/shading/facet_lobes.h"
 #include "janus/shading/fresnel.h"
 
 namespace janus {
@@ -35,7 +36,9 @@ enum Input {
   SheenRoughness,
   SheenTint,
   EmissionColor,
-  EmissionStrength
+  EmissionStrength,
+  FilmThickness,
+  FilmIor
 };
 constexpr SocketDecl kInputs[] = {{"Base Color", Color, 0.8f},
                                   {"Metallic", Float, 0.0f},
@@ -59,9 +62,10 @@ constexpr SocketDecl kInputs[] = {{"Base Color", Color, 0.8f},
                                   {"Sheen Tint", Color, 1.0f},
                                   {"Emission Color", Color, 1.0f},
                                   {"Emission Strength", Float, 0.0f},
+                                  {"Thin Film Thickness", Float, 0.0f},
+                                  {"Thin Film IOR", Float, 1.33f},
                                   {"Normal", Vector, Implicit::Normal},
                                   {"Subsurface Weight", Float, 0.0f},
-                                  {"Thin Film Thickness", Float, 0.0f},
                                   {"Thin Wall", Float, 0.0f}};
 
 // What covers all else; -1: nothing does.
@@ -108,17 +112,18 @@ void add(const ClosureArguments& a, ShadingResult& out) {
   const float ior = usable_index(a.number(Ior)), width = sqr(a.fraction(Roughness));
   const FacetWidths widths = stretched_widths(a, width, Anisotropic, Tangent, AnisotropicRotation);
 
+  const auto filmed = [&](const Lobe& lobe) { return below_film(a, lobe, FilmThickness, FilmIor); };
   const float metallic = a.fraction(Metallic);
   if (metallic > kCutoff) {
-    add_lobe(a, metal_lobe(Rgb(weight * metallic), clamped, widths, a.multiscatter(), tint), out,
-             covers);
+    add_lobe(a, filmed(metal_lobe(Rgb(weight * metallic), clamped, widths, a.multiscatter(), tint)),
+             out, covers);
     weight *= 1.0f - metallic;
   }
   const float transmission = a.fraction(Transmission);
   if (transmission > kCutoff) {
     add_lobe(a,
-             glass_lobe(Rgb(weight * transmission), glm::sqrt(clamped), false, ior, width,
-                        a.multiscatter(), tint),
+             filmed(glass_lobe(Rgb(weight * transmission), glm::sqrt(clamped), false, ior, width,
+                               a.multiscatter(), tint)),
              out, covers);
     weight *= 1.0f - transmission;
   }
@@ -129,16 +134,16 @@ void add(const ClosureArguments& a, ShadingResult& out) {
   const float f0 = level == 0.5f ? fresnel_normal(ior) : 2.0f * level * fresnel_normal(ior);
   const float eta = layer_index(ior, level, f0);
   int layer = covers;
-  if (eta != 1.0f) {
-    layer = add_lobe(a, specular_lobe(Rgb(weight), eta, f0 * tint, widths, a.multiscatter()), out,
-                     covers);
+  const Lobe specular =
+      filmed(specular_lobe(Rgb(weight), eta, f0 * tint, widths, a.multiscatter()));
+  if (eta != 1.0f || film(specular).exists()) {
+    layer = add_lobe(a, specular, out, covers);
   }
   add_lobe(a, rough_diffuse(weight * base, base, a.fraction(DiffuseRoughness)), out, layer);
 }
 
 constexpr LeftOut kLeftOut[] = {
     {"Subsurface Weight", 0.0f, "subsurface scattering is not supported yet; diffuse is used"},
-    kThinFilm,
     {"Thin Wall", 0.0f, "thin walls are not supported yet; a closed surface is rendered"},
 };
 }  // namespace principled

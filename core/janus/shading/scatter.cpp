@@ -79,10 +79,16 @@ std::optional<DeltaEvent> sample_delta(const Lobe& lobe, vec3 ng, vec3 from, flo
       event.eta = eta;
     }
     event.probability = event.transmitted ? 1.0f - events.pmf_reflect : events.pmf_reflect;
-    event.color = lobe.weight * (event.transmitted ? events.transmitted : events.reflected) /
-                  event.probability;
+    event.reverse = event.probability;
+    Rgb kept = event.transmitted ? events.transmitted : events.reflected;
+    if (event.transmitted && film(lobe).exists()) {
+      const GlassEvents opposite(lobe, std::abs(dot(event.direction, event.normal)), 1.0f / eta);
+      event.reverse = 1.0f - opposite.pmf_reflect;
+      kept = radiance ? kept : opposite.transmitted;
+    }
+    event.color = lobe.weight * kept / event.probability;
   } else {
-    event.probability = 1.0f;
+    event.probability = event.reverse = 1.0f;
     event.color = lobe.weight * reflectance(lobe, cos);
   }
   const float to_ng = dot(event.direction, ng);

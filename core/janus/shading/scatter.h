@@ -47,7 +47,8 @@ std::optional<vec3> sample_lobe(const Lobe& lobe, vec3 ng, vec3 from, float u_ev
 struct DeltaEvent {
   vec3 direction;
   Rgb color;          // value / probability, without pmf and without adjoint factors
-  float probability;  // of this event of the lobe, the same from both sides
+  float probability;  // of this event of the lobe,
+  float reverse;      // and of the opposite one
   float eta = 1.0f;   // refraction: index of the far side / index of the side of `from`
   bool transmitted = false;
   bool one_way = false;  // the other walk never makes this event

@@ -49,7 +49,7 @@ SurfaceColor surface_color(const Lobe& lobe, vec3 front, vec3 wo) {
       const GlassEvents events(lobe, cos, eta);
       color.glossy = weight * events.reflected;
       color.transmission = weight * events.transmitted;
-      if (!lobe.tinted_reflection && eta > 1.0f) {
+      if (!lobe.tinted_reflection && eta > 1.0f && !film(lobe).exists()) {
         const Rgb f0 = glm::min(fresnel_normal(eta) * lobe.edge, Rgb(1.0f));
         color.glossy = weight * (f0 + (1.0f - f0) * dielectric_position(roughness(lobe), cos, eta));
       }

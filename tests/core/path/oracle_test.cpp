@@ -126,6 +126,8 @@ const OracleScene kScenes[] = {
        ball_of("ember", {0.5f, 0.2f, 0.3f}, "BSDF_PRINCIPLED",
                {{"Coat Weight", 1.0f}, {"Coat Roughness", 0.5f}, {"Emission Strength", 2.0f}});
        ball_of("velvet", {-0.4f, 0.3f, 0.3f}, "BSDF_SHEEN", {{"Roughness", 0.4f}});
+       ball_of("bubble", {-0.1f, -0.6f, 0.1f}, "BSDF_GLASS",
+               {{"Thin Film Thickness", 400.0f}, {"Thin Film IOR", 1.9f}, {"Roughness", 0.0f}});
        ball_of("comic", {0, 0.5f, 0}, "BSDF_TOON", {{"Size", 0.7f}, {"Smooth", 0.2f}});
        return kit.light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.6f, 20));
      }},

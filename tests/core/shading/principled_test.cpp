@@ -56,14 +56,12 @@ TEST(Compiler, Principled) {
 
 TEST(Compiler, PrincipledNamesWhatIsLeftOut) {
   const std::pair<const char*, const char*> limits[] = {{"Subsurface Weight", "subsurface"},
-                                                        {"Thin Film Thickness", "thin film"}};
+                                                        {"Thin Wall", "thin wall"}};
   for (const auto& [socket, message] : limits) {
     EXPECT_TRUE(warned(compiled(single("BSDF_PRINCIPLED", {{socket, 0.5f}})), "Shader", message));
     EXPECT_TRUE(
         warned(compiled(single("BSDF_PRINCIPLED", {{socket, link("Noise")}})), "Shader", message));
   }
-  EXPECT_TRUE(warned(compiled(single("BSDF_GLASS", {{"Thin Film Thickness", 300.0f}})), "Shader",
-                     "thin film"));
   EXPECT_TRUE(warned(compiled(single("SUBSURFACE_SCATTERING", {})), "Shader", "SUBSURFACE"));
 }
 

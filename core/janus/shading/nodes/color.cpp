@@ -7,6 +7,7 @@
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/color_space.h"
 #include "janus/shading/nodes/families.h"
+#include "janus/shading/nodes/scalar.h"
 
 namespace janus {
 
@@ -33,9 +34,9 @@ vec3 hue_saturation(float hue, float saturation, float value, float factor, vec3
   vec3 hsv = rgb_to_hsv(color);
   const float h = hsv.x + hue + 0.5f;
   hsv.x = h - std::floor(h);
-  hsv.y = std::clamp(hsv.y * saturation, 0.0f, 1.0f);
+  hsv.y = clamp01(hsv.y * saturation);
   hsv.z *= value;
-  return glm::max(factor * hsv_to_rgb(hsv) + (1.0f - factor) * color, vec3(0.0f));
+  return glm::max(vec3(0.0f), factor * hsv_to_rgb(hsv) + (1.0f - factor) * color);
 }
 
 void emit_hue_saturation(NodeEmitter& e) {

@@ -18,6 +18,12 @@ std::span<const NodeDecl> vector_nodes();
 std::span<const NodeDecl> input_nodes();
 std::span<const NodeDecl> geometry_nodes();
 std::span<const NodeDecl> texture_nodes();
+std::span<const NodeDecl> noise_nodes();
+std::span<const NodeDecl> voronoi_nodes();
+std::span<const NodeDecl> gabor_nodes();
+std::span<const NodeDecl> radial_tiling_nodes();
+std::span<const NodeDecl> wavelength_nodes();
+std::span<const NodeDecl> pattern_nodes();
 std::span<const NodeDecl> sky_nodes();
 std::span<const NodeDecl> normal_nodes();
 

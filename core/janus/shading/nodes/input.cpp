@@ -58,10 +58,9 @@ constexpr Operation kReflection = by_view<[](const Context& c) {
 void emit_coordinates(NodeEmitter& e) {
   const bool world = e.seen().of == SeenTree::Of::World, lamp = e.seen().of == SeenTree::Of::Lamp;
   const bool dupli = e.flag("from_instancer");
-  e.output("Generated",
-           world  ? e.emit(kPosition, {})
-           : lamp ? e.emit(kObjectPoint, {})
-                  : e.emit(kAttribute, {}, e.attribute(dupli ? "dupli_generated" : "generated")));
+  e.output("Generated", dupli && !world && !lamp
+                            ? e.emit(kAttribute, {}, e.attribute("dupli_generated"))
+                            : e.generated());
   e.output("Normal", e.emit(kObjectNormal, {}));
   e.output("UV", lamp ? e.emit(kParametric, {})
                       : e.emit(kAttribute, {}, e.attribute(dupli ? "dupli_uv" : "uv:")));

@@ -130,10 +130,6 @@ float map_stepped(float x, float a, float b, float c, float d, float steps) {
   const float t = fraction(x, a, b);
   return remap(steps > 0.0f ? std::floor(t * (steps + 1.0f)) / steps : 0.0f, c, d);
 }
-float smoothstep(float x, float a, float b) {
-  const float t = a == b ? 0.0f : std::clamp((x - a) / (b - a), 0.0f, 1.0f);
-  return t * t * (3.0f - 2.0f * t);
-}
 float smootherstep(float x, float a, float b) {
   const float t = a == b ? 0.0f : std::clamp((x - a) / (b - a), 0.0f, 1.0f);
   return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);

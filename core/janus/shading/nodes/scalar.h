@@ -8,7 +8,13 @@
 
 namespace janus {
 
-inline float clamp01(float x) { return std::clamp(x, 0.0f, 1.0f); }
+// The second where one is no number, as in Cycles' vectors.
+inline float lower(float a, float b) { return a < b ? a : b; }
+inline float upper(float a, float b) { return a > b ? a : b; }
+
+// What is no number becomes the lower limit, as in Cycles.
+inline float limited(float x, float low, float high) { return x > low ? std::min(x, high) : low; }
+inline float clamp01(float x) { return limited(x, 0.0f, 1.0f); }
 
 inline float safe_divide(float a, float b) { return b != 0.0f ? a / b : 0.0f; }
 
@@ -42,6 +48,12 @@ inline float ping_pong(float a, float b) {
   }
   const float x = (a - b) / (2.0f * b);
   return std::abs((x - std::floor(x)) * 2.0f * b - b);
+}
+
+// From 0 at a to 1 at b, without slope there.
+inline float smoothstep(float x, float a, float b) {
+  const float t = a == b ? 0.0f : std::clamp((x - a) / (b - a), 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
 }
 
 // The polynomial smooth minimum (I. Quilez), cubic.
