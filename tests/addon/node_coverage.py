@@ -28,7 +28,6 @@ REFUSED = {
     "VOLUME_COEFFICIENTS": "volume; named for the material",
     "VOLUME_INFO": "volume",
     "VOLUME_SCATTER": "volume; named for the material",
-    "WIREFRAME": "not yet",
 }
 NOT_FOR_CYCLES = {"EEVEE_SPECULAR", "OUTPUT_LINESTYLE", "SHADERTORGB", "SQUEEZE", "UVALONGSTROKE"}
 # The add-on resolves them (addon/nodes/links.py), or starts from them.

@@ -10,6 +10,7 @@ def add_cases() -> None:
     vector_cases()
     input_cases()
     normal_cases()
+    wireframe_cases()
 
 
 def vector_cases() -> None:
@@ -281,6 +282,28 @@ def normal_cases() -> None:
                 return normal_of(t, node.outputs[0])
 
             CASES[f"bump {invert} {strength}"] = build
+
+
+def wireframe_cases() -> None:
+    for pixels in (False, True):
+
+        def wires(t, size, pixels=pixels):
+            return t.out("Wireframe", {0: size}, use_pixel_size=pixels)
+
+        for size in (0.1, 1.2):
+            for mesh in ("", "pieces "):
+                CASES[f"{mesh}wireframe {pixels} {size}"] = lambda t, size=size, wires=wires: wires(
+                    t, size
+                )
+
+        @case(f"wireframe {pixels} by a number")
+        def _(t, wires=wires):
+            inputs = {"Value": t.signed()[0], "From Min": -2.0, "From Max": 2.0, "To Max": 2.0}
+            return wires(t, t.out("MapRange", inputs))
+
+        @case(f"bump by wireframe {pixels}")
+        def _(t, wires=wires):
+            return t.out("Bump", {"Height": wires(t, 0.5), "Distance": 0.3})
 
 
 def sky_cases() -> None:

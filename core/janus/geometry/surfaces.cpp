@@ -114,12 +114,12 @@ ShadingPoint Surfaces::point(const SurfaceInteraction& hit, vec3 view) const {
   if (!mesh) {
     point.on_curve = shape.round()->curves();
     point.edge_u = linear * shape.round()->place(hit.primitive, hit.barycentric.x).along;
-  } else if (program.fibers || !program.filter_widths.empty()) {
+  } else if (program.edges) {
     const auto vertex = [&](int k) { return mesh->positions()[point.triangle.vertices[k]]; };
     point.edge_u = linear * (vertex(1) - vertex(0));
     point.edge_v = linear * (vertex(2) - vertex(0));
   }
-  if (!program.filter_widths.empty()) {
+  if (program.edges) {
     point.footprint = footprint_.width + footprint_.angle * glm::length(hit.p - footprint_.eye);
     if (mesh) {
       mesh->corner_normals(hit.primitive, point.corner_normals);

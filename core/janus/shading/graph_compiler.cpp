@@ -214,6 +214,7 @@ std::optional<uint16_t> GraphCompiler::shifted_points(float width) {
       return std::nullopt;
     }
     widths.push_back(width);
+    program_.edges = true;
   }
   return static_cast<uint16_t>(1 + 2 * index);
 }
@@ -320,6 +321,8 @@ uint32_t find_or_add(std::vector<T>& list, T item, Same same) {
 }
 
 }  // namespace
+
+void GraphCompiler::use_edges() { program_.edges = true; }
 
 uint32_t GraphCompiler::attribute(const std::string& key) {
   program_.tangents |= key.starts_with("tangent:");

@@ -39,6 +39,7 @@ class GraphCompiler {
   SeenTree seen() const { return seen_; }
 
   // What instructions refer to by `data`.
+  void use_edges();
   uint32_t attribute(const std::string& key);
   uint32_t table(std::vector<float> values);
   uint32_t texture(Texture texture);

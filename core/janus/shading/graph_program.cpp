@@ -45,6 +45,7 @@ void GraphCompiler::closure(const NodeReader& reader, Value share) {
   read_inputs(reader, step);
   const ClosureTraits& traits = step.decl->traits;
   program_.fibers |= traits.fibers;
+  program_.edges |= traits.fibers;
   program_.transmits |= traits.transmits && !neutral(step, traits.transmission);
   for (const LeftOut& left_out : step.decl->left_out) {
     if (reader.link(left_out.input) || reader.color(left_out.input) != Rgb(left_out.neutral)) {

@@ -50,6 +50,8 @@ Value NodeEmitter::emit(const Operation& operation, std::initializer_list<Value>
   return compiler_.emit(operation, operands, data, at_);
 }
 
+void NodeEmitter::use_edges() { compiler_.use_edges(); }
+
 uint32_t NodeEmitter::attribute(const std::string& key) { return compiler_.attribute(key); }
 uint32_t NodeEmitter::table(std::vector<float> values) {
   return compiler_.table(std::move(values));

@@ -67,6 +67,8 @@ class NodeEmitter {
   Value convert(Value value, SocketType type);
 
   uint32_t attribute(const std::string& key);
+  // Some operation reads the sides of the triangle, or the width of a pixel.
+  void use_edges();
   uint32_t table(std::vector<float> values);
   uint32_t texture(Texture texture);
   // What the node shows a sun in, looked up in `direction`: a world looks for light there.

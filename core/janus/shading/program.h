@@ -95,6 +95,7 @@ class Program {
   std::vector<float> filter_widths;  // pixels to the points beside the point that bump reads
   bool tangents = false;             // some attribute is a tangent
   bool fibers = false;               // some closure is one of hair
+  bool edges = false;                // some operation reads the triangle's, and how wide a pixel is
   Dependence dependence = Dependence::None;
   std::vector<SunDisc> suns;  // which a world looks for
   bool transmits = false;     // some closure scatters to the other side, or may

@@ -136,6 +136,51 @@ void emit_geometry(NodeEmitter& e) {
   }
 }
 
+// --- Wireframe -----------------------------------------------------------------------------------
+
+constexpr SocketDecl kWireframeInputs[] = {{"Size", Float, 0.01f}};
+constexpr std::string_view kWireframe[] = {"Fac"};
+
+// Is a side of the triangle at most half of `size` away? `offset`: how far from the point one looks
+// from. `data`: 1, sizes are pixels, by what the viewer sees of the pixel's sides.
+float wireframe(const Context& c, float size, vec3 offset) {
+  const ShadingPoint& point = c.point;
+  if (point.on_curve) {
+    return 0.0f;
+  }
+  float half = 0.5f * size;
+  if (c.data != 0) {
+    const auto seen = [&](vec3 side) {
+      return glm::length(side - dot(side, point.view) * point.view);
+    };
+    half *= 0.5f * (seen(point.step(0)) + seen(point.step(1)));
+  }
+  const vec3 corners[] = {vec3(0.0f), point.edge_u, point.edge_v};
+  const vec3 p = point.barycentric.x * point.edge_u + point.barycentric.y * point.edge_v + offset;
+  for (int i = 0; i < 3; ++i) {
+    const vec3 side = corners[i] - corners[(i + 2) % 3];
+    if (length2(cross(side, p - corners[i])) < length2(side) * half * half) {
+      return 1.0f;
+    }
+  }
+  return 0.0f;
+}
+
+void emit_wireframe(NodeEmitter& e) {
+  if (e.seen().of != SeenTree::Of::Surface) {
+    e.output("Fac", e.constant(0.0f));
+    return;
+  }
+  e.use_edges();
+  NodeEmitter here = e.unshifted();
+  const Value offset = e.emit(pure<[](vec3 a, vec3 b) { return a - b; }>,
+                              {e.emit(kPosition, {}), here.emit(kPosition, {})});
+  const bool pixels = e.flag("use_pixel_size");
+  e.output("Fac", here.emit(pixels ? by_view<&wireframe> : at_point<&wireframe>,
+                            {e.input("Size"), e.shifted() ? offset : e.constant(vec3(0.0f))},
+                            pixels ? 1 : 0));
+}
+
 // --- Tangent -------------------------------------------------------------------------------------
 
 constexpr std::string_view kTangent[] = {"Tangent"};
@@ -198,6 +243,7 @@ std::span<const NodeDecl> geometry_nodes() {
       {"ATTRIBUTE", {}, kAttributeOutputs, &emit_attribute, nullptr, MixOp::None, kKind},
       {"VERTEX_COLOR", {}, kColorAlpha, &emit_color_attribute},
       {"NEW_GEOMETRY", {}, kGeometry, &emit_geometry},
+      {"WIREFRAME", kWireframeInputs, kWireframe, &emit_wireframe},
       {"HAIR_INFO", {}, kCurvesInfo, &emit_curves_info},
       {"TANGENT", {}, kTangent, &emit_tangent, nullptr, MixOp::None, kDirection},
   };
