@@ -23,7 +23,6 @@ REFUSED = {
     "SUBSURFACE_SCATTERING": "subsurface scattering",
     "TEX_IES": "beams of IES files",
     "TEX_POINTDENSITY": "volume",
-    "TEX_SKY": "procedural texture",
     "VECTOR_DISPLACEMENT": "displacement; named for the material",
     "VOLUME_ABSORPTION": "volume; named for the material",
     "VOLUME_COEFFICIENTS": "volume; named for the material",

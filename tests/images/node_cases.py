@@ -168,6 +168,7 @@ def add_cases() -> None:
     node_cases_textures.add_cases()
     node_cases_groups.add_cases()
     node_cases_versions.add_cases()
+    node_cases_places.sky_cases()
     older = tuple(name for until, name in OLDER if bpy.app.version < until)
     for name in [n for n in CASES if n.startswith(older)]:
         del CASES[name]

@@ -304,3 +304,30 @@ def wireframe_cases() -> None:
         @case(f"bump by wireframe {pixels}")
         def _(t, wires=wires):
             return t.out("Bump", {"Height": wires(t, 0.5), "Distance": 0.3})
+
+
+def sky_cases() -> None:
+    """As a colour by direction: sky_views.py has worlds. Some models let nothing be linked."""
+    for model in enum_items("TexSky", "sky_type"):
+        for elevation in (0.3, 0.0):
+
+            def build(t, model=model, elevation=elevation):
+                node = t.node(
+                    "TexSky",
+                    sky_type=model,
+                    sun_size=0.5,
+                    sun_intensity=0.1,
+                    sun_elevation=elevation,
+                    sun_rotation=4.0,
+                    altitude=500.0,
+                    sun_direction=(0.5, 0.6, 2.0 * elevation),
+                )
+                if node.inputs[0].enabled:
+                    unit = t.out("VectorMath", {0: t.vector()}, operation="NORMALIZE")
+                    t.tree.links.new(unit, node.inputs[0])
+                return node.outputs[0]
+
+            CASES[f"sky {model} {elevation}"] = build
+        CASES[f"sky {model} without vector"] = lambda t, model=model: t.out(
+            "TexSky", sky_type=model, sun_size=0.5, sun_intensity=0.1, sun_elevation=0.9
+        )

@@ -52,8 +52,8 @@ class ConstantEnvironment final : public InfiniteLight {
   Rgb radiance_;
 };
 
-// A world that varies: EnvironmentMap, ProgramSky. Emission and illumination draw from the same
-// directions.
+// A world that varies: EnvironmentMap, ProgramSky, or a part of one: SkySun. Emission and
+// illumination draw from the same directions.
 template <class Sky>
 class VaryingEnvironment final : public InfiniteLight {
  public:
@@ -61,14 +61,26 @@ class VaryingEnvironment final : public InfiniteLight {
     name = "World";
   }
 
-  float power() const override { return sky_.total() * scene_.mean_area(); }
+  float power() const override {
+    if constexpr (kSun) {
+      return sky_.total() * scene_.area(sky_.cone().direction);
+    } else {
+      return sky_.total() * scene_.mean_area();
+    }
+  }
 
   bool hittable() const override { return true; }
 
   std::vector<Emitter> emitters() const override {
     Emitter e;
     e.infinite = true;
-    e.strength = 0.5f * sky_.total();  // a surface sees half of the directions
+    if constexpr (kSun) {
+      e.strength = sky_.total();
+      e.axis = sky_.cone().direction;
+      e.theta_o = sky_.cone().half_angle;
+    } else {
+      e.strength = 0.5f * sky_.total();  // a surface sees half of the directions
+    }
     return {e};
   }
 
@@ -111,6 +123,7 @@ class VaryingEnvironment final : public InfiniteLight {
   }
 
  private:
+  static constexpr bool kSun = std::is_same_v<Sky, SkySun>;
   Sky sky_;
 };
 
@@ -126,6 +139,10 @@ std::unique_ptr<Light> make_environment_light(EnvironmentMap map, const SceneBox
 
 std::unique_ptr<Light> make_environment_light(ProgramSky sky, const SceneBox& scene) {
   return std::make_unique<VaryingEnvironment<ProgramSky>>(std::move(sky), scene);
+}
+
+std::unique_ptr<Light> make_environment_light(SkySun sun, const SceneBox& scene) {
+  return std::make_unique<VaryingEnvironment<SkySun>>(std::move(sun), scene);
 }
 
 }  // namespace janus

@@ -20,10 +20,11 @@ std::unique_ptr<Light> make_area_light(const LightDesc& desc, Rgb strength);
 
 std::unique_ptr<Light> make_sun_light(const LightDesc& desc, Rgb strength, const SceneBox& scene);
 
-// A world of constant radiance, of a picture, or of a program.
+// A world of constant radiance, of a picture, or of a program, and a sun of the last.
 std::unique_ptr<Light> make_environment_light(Rgb radiance, const SceneBox& scene);
 std::unique_ptr<Light> make_environment_light(EnvironmentMap map, const SceneBox& scene);
 std::unique_ptr<Light> make_environment_light(ProgramSky sky, const SceneBox& scene);
+std::unique_ptr<Light> make_environment_light(SkySun sun, const SceneBox& scene);
 
 // Colour times power of a lamp, in watts.
 inline Rgb lamp_power(const LightDesc& desc, Rgb strength) {

@@ -5,6 +5,8 @@
 #include <functional>
 
 #include "janus/image/latlong.h"
+#include "janus/math/frame.h"
+#include "janus/math/warp.h"
 #include "janus/util/parallel.h"
 
 namespace janus {
@@ -20,13 +22,11 @@ constexpr float kMost = 1e20f;  // sums of it are finite
 // Of all directions, this share is drawn whatever the grid says.
 constexpr double kUniformShare = 0.01;
 
-int widest_picture(const Program& program) {
-  int width = 0;
-  for (const auto& texture : program.textures) {
-    width = std::max(width, texture->image->width);
-  }
-  return width;
-}
+// Of a sun's disc: so much more belongs to its cone, lest rounding leaves its edge to the sky.
+constexpr float kMargin = 1.001f;
+
+// 1 - cos of an angle, precise for the real sun's quarter of a degree.
+float one_minus_cos(float angle) { return 2.0f * sqr(cos_sin(0.5f * angle).y); }
 
 }  // namespace
 
@@ -46,22 +46,88 @@ ShadingPoint sky_point(vec3 direction, const ObjectData& surroundings) {
   return point;
 }
 
-ProgramSky::ProgramSky(Program program, const CameraView& camera, bool sampled,
-                       const CancelToken& cancel)
-    : program_(std::move(program)),
-      surroundings_(no_object(camera)),
-      map_(measure(sampled, cancel)) {}
+WorldProgram::WorldProgram(Program program, const CameraView& camera)
+    : program_(std::move(program)), surroundings_(no_object(camera)) {
+  for (const SunDisc& sun : program_.suns) {
+    const SunDisc cone{sun.direction, std::min(kMargin * sun.half_angle, kPi)};
+    float inside = 0.0f;
+    for (const float share : {0.1f, 0.5f, 0.9f}) {
+      inside += luminance_around(cone, share) / 3.0f;
+    }
+    // It may be below the horizon, or hidden by what the tree does with it.
+    if (inside > 2.0f * luminance_around(cone, 1.05f) && sun_at(cone.direction) == suns_.size()) {
+      suns_.push_back(cone);
+    }
+  }
+}
 
-Rgb ProgramSky::radiance(vec3 direction) const {
+Rgb WorldProgram::radiance(vec3 direction) const {
   ShadingResult result;
   program_.run(sky_point(direction, surroundings_), result);
   return is_finite(result.emission) ? result.emission : Rgb(0.0f);
 }
 
+int WorldProgram::widest_picture() const {
+  int width = 0;
+  for (const auto& texture : program_.textures) {
+    width = std::max(width, texture->image->width);
+  }
+  return width;
+}
+
+size_t WorldProgram::sun_at(vec3 direction) const {
+  // 1 - cos = |a - b|^2 / 2 keeps its precision.
+  const auto found = std::ranges::find_if(suns_, [&](const SunDisc& sun) {
+    return 0.5f * length2(direction - sun.direction) <= one_minus_cos(sun.half_angle);
+  });
+  return static_cast<size_t>(found - suns_.begin());
+}
+
+float WorldProgram::luminance_around(const SunDisc& sun, float share) const {
+  constexpr int kPoints = 16;
+  const Frame frame(sun.direction);
+  const vec2 c = cos_sin(std::min(share * sun.half_angle, kPi));
+  float sum = 0.0f;
+  for (int i = 0; i < kPoints; ++i) {
+    const vec2 around = cos_sin(2.0f * kPi * static_cast<float>(i) / kPoints);
+    sum += luminance(radiance(frame.to_world(vec3(c.y * around, c.x))));
+  }
+  return sum / kPoints;
+}
+
+SkySun::SkySun(std::shared_ptr<const WorldProgram> world, size_t number)
+    : world_(std::move(world)),
+      number_(number),
+      one_minus_cos_(one_minus_cos(cone().half_angle)),
+      pdf_(0.5f * kInvPi / one_minus_cos_) {
+  constexpr int kSide = 16;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const vec2 u = (vec2(i % kSide, i / kSide) + 0.5f) / static_cast<float>(kSide);
+    total_ += luminance(radiance(sample(u))) / (pdf_ * kSide * kSide);
+  }
+}
+
+Rgb SkySun::radiance(vec3 direction) const {
+  return world_->sun_at(direction) == number_ ? world_->radiance(direction) : Rgb(0.0f);
+}
+
+vec3 SkySun::sample(vec2 u) const {
+  return Frame(cone().direction).to_world(square_to_cone(u, one_minus_cos_));
+}
+
+ProgramSky::ProgramSky(std::shared_ptr<const WorldProgram> world, bool sampled,
+                       const CancelToken& cancel)
+    : world_(std::move(world)), map_(measure(sampled, cancel)) {}
+
+Rgb ProgramSky::radiance(vec3 direction) const {
+  return world_->sun_at(direction) == world_->suns().size() ? world_->radiance(direction)
+                                                            : Rgb(0.0f);
+}
+
 // The mean of each cell over points on its edges, or inside, too: no line between bright and dark
 // is missed, as happens where one looks at the middles alone.
 EnvironmentMap ProgramSky::measure(bool sampled, const CancelToken& cancel) const {
-  const int width = widest_picture(program_);
+  const int width = world_->widest_picture();
   const int columns = sampled ? std::clamp(width, kLeastColumns, kMostColumns) : 4;
   const int rows = columns / 2, steps = width > kMostColumns ? 2 : 1;
   // By columns: the sums over the points on and between their edges, on the line at `v`.

@@ -263,8 +263,11 @@ std::vector<std::unique_ptr<Light>> make_world(const WorldDesc& world, const Ima
   for (auto& [seen_by, program] : parts.programs) {
     if (program.varying_emission) {
       const bool sampled = (world.visibility & seen_by & kLabels) != 0;
-      add(make_environment_light(ProgramSky(std::move(program), camera, sampled, cancel), scene),
-          seen_by);
+      const auto shown = std::make_shared<const WorldProgram>(std::move(program), camera);
+      add(make_environment_light(ProgramSky(shown, sampled, cancel), scene), seen_by);
+      for (size_t sun = 0; sun < shown->suns().size(); ++sun) {
+        add(make_environment_light(SkySun(shown, sun), scene), seen_by);
+      }
     } else if (!is_black(program.emission)) {
       add(make_environment_light(program.emission, scene), seen_by);
     }

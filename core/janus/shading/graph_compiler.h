@@ -43,6 +43,7 @@ class GraphCompiler {
   uint32_t attribute(const std::string& key);
   uint32_t table(std::vector<float> values);
   uint32_t texture(Texture texture);
+  void sun(const SunDisc& disc) { program_.suns.push_back(disc); }
   const ImageDesc* image(const std::string& key) const;
 
   // Compiles a node and all that it needs, deepest first.

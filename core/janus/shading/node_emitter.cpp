@@ -2,6 +2,7 @@
 #include "janus/shading/node_emitter.h"
 
 #include "janus/shading/graph_compiler.h"
+#include "janus/shading/point_reads.h"
 
 namespace janus {
 
@@ -56,6 +57,13 @@ uint32_t NodeEmitter::table(std::vector<float> values) {
   return compiler_.table(std::move(values));
 }
 uint32_t NodeEmitter::texture(Texture texture) { return compiler_.texture(std::move(texture)); }
+
+void NodeEmitter::sun(Value direction, SunDisc disc) {
+  // Elsewhere, or turned, it is not where it is.
+  if (seen().of == SeenTree::Of::World && direction.index == emit(kPosition, {}).index) {
+    compiler_.sun(disc);
+  }
+}
 
 const ImageDesc* NodeEmitter::image(const std::string& key) const { return compiler_.image(key); }
 

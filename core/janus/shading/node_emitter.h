@@ -71,6 +71,8 @@ class NodeEmitter {
   void use_edges();
   uint32_t table(std::vector<float> values);
   uint32_t texture(Texture texture);
+  // What the node shows a sun in, looked up in `direction`: a world looks for light there.
+  void sun(Value direction, SunDisc disc);
   const ImageDesc* image(const std::string& key) const;  // nullptr: there is none
 
   void output(std::string_view identifier, Value value);

@@ -67,6 +67,12 @@ struct AovWrite {
   uint16_t color, value;  // registers
 };
 
+// A sun that the program of a world shows: within `half_angle` (radians) of `direction`.
+struct SunDisc {
+  vec3 direction;
+  float half_angle;
+};
+
 class Program {
  public:
   // --- What does not vary over the surface.
@@ -91,7 +97,8 @@ class Program {
   bool fibers = false;               // some closure is one of hair
   bool edges = false;                // some operation reads the triangle's, and how wide a pixel is
   Dependence dependence = Dependence::None;
-  bool transmits = false;  // some closure scatters to the other side, or may
+  std::vector<SunDisc> suns;  // which a world looks for
+  bool transmits = false;     // some closure scatters to the other side, or may
 
   // --- Of a program that does nothing else.
   std::vector<AovWrite> aovs;

@@ -42,6 +42,22 @@ SceneKit seen_by(const std::string& output, NodeGraph other = single("BACKGROUND
   return kit;
 }
 
+// The sky of Sky Texture and its sun, which is a light of its own.
+TEST(WorldOfSky, IntegratorsAgree) {
+  SceneKit kit = things();
+  kit.builder.set_world(
+      {"World", sky_texture("MULTIPLE_SCATTERING", {{"sun_size", 0.3f}, {"sun_rotation", 2.5f}})});
+  const auto scene = kit.build();
+  EXPECT_TRUE(scene->diagnostics.empty());
+  EXPECT_EQ(scene->lights.size(), 2u);
+  const auto picture = [&](IntegratorType integrator, int count) {
+    return quarters(scene, small_picture(integrator, samples(count)));
+  };
+  const auto bdpt = picture(IntegratorType::Bdpt, 96);
+  expect_agreement(bdpt, picture(IntegratorType::PathTracer, 192));
+  expect_agreement(bdpt, picture(IntegratorType::LightTracer, 256), 0.05);
+}
+
 class WorldByRay : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(WorldByRay, IntegratorsAgree) {

@@ -132,6 +132,31 @@ inline SceneKit world_of_nodes(SceneKit kit) {
   return kit;
 }
 
+// A world of Blender's Sky Texture: a clear day, dimmed.
+inline NodeGraph sky_texture(const std::string& model,
+                             std::map<std::string, NodeProperty> properties = {}) {
+  NodeGraph graph = single("BACKGROUND", {{"Color", link("Sky", "Color")}, {"Strength", 0.02f}});
+  Node sky = node("Sky", "TEX_SKY", {});
+  sky.properties = std::move(properties);
+  sky.properties.merge(std::map<std::string, NodeProperty>{
+      {"sky_type", model},
+      {"sun_disc", true},
+      {"sun_size", 0.0095f},
+      {"sun_intensity", 1.0f},
+      {"sun_elevation", 0.6f},
+      {"altitude", 100.0f},
+      {"air_density", 1.0f},
+      {"dust_density", 1.0f},
+      {"aerosol_density", 1.0f},
+      {"ozone_density", 1.0f},
+      {"turbidity", 3.0f},
+      {"ground_albedo", 0.3f},
+      {"sun_direction", std::vector<float>{0.6f, 0.0f, 0.8f}},
+  });
+  graph.nodes.push_back(std::move(sky));
+  return graph;
+}
+
 inline const LightCase kLightCases[] = {
     {.name = "point",
      .make = [] { return lamp(point_light({0.2f, 0.1f, 1}, 7)); },

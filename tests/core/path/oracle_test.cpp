@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/scene_kit.h"
+#include "light/light_cases.h"
 #include "support/statistics.h"
 
 namespace janus::test {
@@ -152,6 +152,14 @@ const OracleScene kScenes[] = {
            .light("spot", spot_light({0.3f, -0.2f, 0.8f}, {0, 0, -0.5f}, 20, 1.4f, 0.4f))
            .light("soft", spot_light({-0.4f, 0, 0.8f}, {0, 0, -0.5f}, 20, 1.2f, 0.4f, 0.2f))
            .world(std::move(sky));
+     }},
+    {"sky_texture",  // its sun is a light of its own
+     [] {
+       SceneKit kit = open_box();
+       kit.builder.set_world(
+           {"World", sky_texture("SINGLE_SCATTERING",
+                                 {{"sun_size", 0.8f}, {"sun_rotation", kPi}, {"altitude", 0.0f}})});
+       return kit;
      }},
 };
 

@@ -16,6 +16,7 @@ from mistakes.sources import (
     MIS,
     ORACLE,
     PICTURES,
+    SKY,
     SUBPATH,
 )
 
@@ -258,5 +259,23 @@ DENSITIES = (
         "static_cast<float>(cache_.size()) / (effort_.connections *"
         " static_cast<float>(wave_paths_));",
         "cached_path_.vertices / effort_.connections;",
+    ),
+    one(
+        "sun-in-the-sky-too",
+        0,
+        "the directions of the sun belong to the rest of the sky as well",
+        "SkySun.*",
+        SKY,
+        "return world_->sun_at(direction) == world_->suns().size()",
+        "return true || world_->sun_at(direction) == world_->suns().size()",
+    ),
+    one(
+        "cone-of-the-sun",
+        0,
+        "the sun's directions are drawn from half of the cone that their density says",
+        "SkySun.*",
+        SKY,
+        "pdf_(0.5f * kInvPi / one_minus_cos_)",
+        "pdf_(kInvPi / one_minus_cos_)",
     ),
 )

@@ -16,6 +16,7 @@ LAYERS = "core/janus/shading/layers.cpp"
 MIS = "core/janus/path/mis.h"
 PILOT = "core/janus/integrator/pilot.h"
 ROULETTE = "core/janus/path/roulette.h"
+SKY = "core/janus/light/program_sky.cpp"
 SUBPATH = "core/janus/path/subpath.h"
 
 # Wildcards, because files of tests are split and merged.

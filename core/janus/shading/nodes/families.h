@@ -24,6 +24,7 @@ std::span<const NodeDecl> gabor_nodes();
 std::span<const NodeDecl> radial_tiling_nodes();
 std::span<const NodeDecl> wavelength_nodes();
 std::span<const NodeDecl> pattern_nodes();
+std::span<const NodeDecl> sky_nodes();
 std::span<const NodeDecl> normal_nodes();
 
 }  // namespace janus
