@@ -92,7 +92,11 @@ class Viewport:
         if self._builder.changed:
             self._builder.changed = False
             self._outdated = True
-        if (view.scaled(1), settings) != (self._view and self._view.scaled(1), self._settings):
+        pixels = view.scaled(view.pixel)
+        if (pixels, settings) != (
+            self._view and self._view.scaled(self._view.pixel),
+            self._settings,
+        ):
             self._restart = True
         self._view, self._settings = view, settings
         if self._session and self._obsolete and not self._unseen_draft:
@@ -128,7 +132,7 @@ class Viewport:
             return "Building scene"
         if self._session is None:
             return ""
-        samples = 0 if self._divider > 1 else self._shown
+        samples = self._shown if self._finest else 0
         return f"Sample {samples}/{self._settings['samples']}"
 
     @property
@@ -166,20 +170,26 @@ class Viewport:
             return True
         if self._restart:
             return not self._unseen_draft or self._ended()
-        return self._divider > 1 and self._ended()
+        return not self._finest and self._ended()
+
+    @property
+    def _finest(self) -> bool:
+        """Are the session's pixels those of the finished picture?"""
+        return self._divider == self._view.pixel
 
     def _start(self) -> None:
         self._is_draft = self._restart or self._session is None
+        dividers = [divider for divider in DIVIDERS if divider >= self._view.pixel]
         if self._is_draft:
-            divider = self._divider_within(DRAFT_SECONDS, DIVIDERS)
+            divider = self._divider_within(DRAFT_SECONDS, dividers)
         else:
-            finer = [divider for divider in DIVIDERS if divider < self._divider]
+            finer = [divider for divider in dividers if divider < self._divider]
             divider = self._divider_within(STEP_SECONDS, finer)
         self._restart = False
         self._session = None  # waits for its threads
         self._denoiser.begin(self._is_draft)
         settings = self._settings | self._view.scaled(divider)
-        if divider > 1:
+        if divider > self._view.pixel:
             settings["samples"] = 1
         session = self._core.RenderSession(self._scene, self._core.RenderSettings(**settings))
         session.start()
@@ -193,7 +203,7 @@ class Viewport:
     def _divider_within(self, seconds: float, dividers) -> int:
         """The least of them whose sample takes no longer, or else the largest."""
         if self._seconds is None:
-            return FIRST_DIVIDER
+            return max(FIRST_DIVIDER, dividers[0])
         pixels = self._view.rectangle[2] * self._view.rectangle[3]
         quick = (d for d in dividers if pixels * self._seconds < seconds * d**2)
         return next(quick, dividers[-1])
@@ -216,7 +226,7 @@ class Viewport:
         else:
             fresh = False
         if ended and not self._finished:
-            self._finished = self._divider == 1
+            self._finished = self._finest
             self._session.finish()  # raises what went wrong
         return fresh
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a 3D viewport looks at: its camera, and the pixels that are to be rendered."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import bpy
 import numpy as np
 
 from .camera import camera_type, lens, window, window_of, without_scale
@@ -19,6 +20,7 @@ class View:
     height: int
     crop: tuple[int, int, int, int] | None  # the part to render: x0, y0, x1, y1 in the full frame
     camera: dict  # the arguments of SceneBuilder.set_camera
+    pixel: int = 1  # the finished picture's are so many times as large as the region's
 
     def scaled(self, divider: int) -> dict:
         """width, height and crop of RenderSettings with pixels `divider` times as large."""
@@ -37,11 +39,24 @@ class View:
         return self.x + x0, self.y + y0, x1 - x0, y1 - y0
 
 
+def pixel_of(scene) -> int:
+    """Blender's Pixel Size; by itself, larger where its whole interface is."""
+    chosen = scene.render.preview_pixel_size
+    if chosen != "AUTO":
+        return int(chosen)
+    return 2 if bpy.context.preferences.system.pixel_size > 1.5 else 1
+
+
 def read_view(region, rv3d, space, depsgraph) -> View:
     """The view of a region of a 3D viewport. Raises RenderRefused for a camera that Janus lacks.
 
     Blender's own matrices decide, so that zoom, offset, lens shift and sensor fit are as there.
     """
+    view = _read_view(region, rv3d, space, depsgraph)
+    return replace(view, pixel=pixel_of(depsgraph.scene))
+
+
+def _read_view(region, rv3d, space, depsgraph) -> View:
     scene = depsgraph.scene_eval
     width, height = max(region.width, 1), max(region.height, 1)
     seen = camera_of(rv3d, space, scene)

@@ -108,6 +108,14 @@ class JANUS_RENDER_PT_performance_final_render(JanusPanel, bpy.types.Panel):
         self.column().prop(context.scene.render, "use_persistent_data", text="Persistent Data")
 
 
+class JANUS_RENDER_PT_performance_viewport(JanusPanel, bpy.types.Panel):
+    bl_label = "Viewport"
+    bl_parent_id = "JANUS_RENDER_PT_performance"
+
+    def draw(self, context):
+        self.column().prop(context.scene.render, "preview_pixel_size", text="Pixel Size")
+
+
 SIMPLIFY = (
     JANUS_RENDER_PT_simplify,
     JANUS_RENDER_PT_simplify_viewport,
@@ -119,4 +127,5 @@ CLASSES = (
     JANUS_RENDER_PT_performance,
     JANUS_RENDER_PT_performance_compositor,
     JANUS_RENDER_PT_performance_final_render,
+    JANUS_RENDER_PT_performance_viewport,
 )

@@ -104,6 +104,17 @@ def test_drafts_come_first_where_samples_are_slow(world_of_things, core):
     assert sizes[:4] == [(HEIGHT // d, WIDTH // d) for d in (8, 4, 2, 1)]
 
 
+def test_pixels_as_large_as_the_scene_wants(world_of_things, core):
+    render = bpy.context.scene.render
+    eye = Eye(core)
+    for size in ("2", "8", "1"):
+        render.preview_pixel_size = size
+        assert eye.wait().shape[:2] == (HEIGHT // int(size), WIDTH // int(size))
+        assert eye.viewport.picture.rectangle == (0, 0, WIDTH, HEIGHT)
+        samples = bpy.context.scene.janus.preview_samples
+        assert eye.viewport.status == f"Sample {samples}/{samples}"
+
+
 def test_a_draft_that_ends_between_two_draws_is_seen(world_of_things, core):
     eye = Eye(core)
     make, sessions = core.RenderSession, []
