@@ -119,7 +119,7 @@ LobeEval evaluate_diffuse(const Lobe& lobe, vec3 ng, const Directions& d) {
     default:
       out.f *= out.pdf_radiance;
   }
-  if (lobe.bumped) {
+  if (lobe.bumped && lobe.type != LobeType::Velvet) {  // which is glossy for Cycles
     out.f *= lit_bumps(n, d.ns, d.wi);
   }
   return out;

@@ -18,7 +18,7 @@ Rgb coat_tint(const Lobe& coat, float cos_o) {
   }
   const float cos_t = std::sqrt(std::max(1.0f - (1.0f - sqr(cos_o)) / sqr(coat.ior), 1e-6f));
   const Rgb tinted = glm::pow(coat.color, Rgb(1.0f / cos_t));
-  return 1.0f + coat.sigma * (tinted - 1.0f);
+  return glm::max(1.0f + coat.sigma * (tinted - 1.0f), 0.0f);  // a share may be above 1
 }
 
 float remaining(float albedo) { return std::clamp(1.0f - albedo, 0.0f, 1.0f); }
