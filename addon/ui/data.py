@@ -16,13 +16,16 @@ class JANUS_WORLD_PT_preview(PreviewPanel, bpy.types.Panel):
         return context.world
 
 
-class JANUS_WORLD_PT_surface(JanusPanel, bpy.types.Panel):
-    bl_label = "Surface"
+class WorldPanel(JanusPanel):
     bl_context = "world"
 
     @classmethod
     def poll(cls, context):
         return super().poll(context) and context.world
+
+
+class JANUS_WORLD_PT_surface(WorldPanel, bpy.types.Panel):
+    bl_label = "Surface"
 
     def draw(self, context):
         world = context.world
@@ -35,14 +38,9 @@ class JANUS_WORLD_PT_surface(JanusPanel, bpy.types.Panel):
         draw_surface(self.layout, world.node_tree)
 
 
-class JANUS_WORLD_PT_mist(JanusPanel, bpy.types.Panel):
+class JANUS_WORLD_PT_mist(WorldPanel, bpy.types.Panel):
     bl_label = "Mist Pass"
-    bl_context = "world"
     bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.world
 
     def draw(self, context):
         column = self.column()
@@ -50,11 +48,10 @@ class JANUS_WORLD_PT_mist(JanusPanel, bpy.types.Panel):
             column.prop(context.world.mist_settings, name)
 
 
-class JANUS_WORLD_PT_ray_visibility(JanusPanel, bpy.types.Panel):
+class JANUS_WORLD_PT_ray_visibility(WorldPanel, bpy.types.Panel):
     """The settings are Cycles' own: a file has them once."""
 
     bl_label = "Ray Visibility"
-    bl_context = "world"
     bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
@@ -94,14 +91,9 @@ class JANUS_OBJECT_PT_lightgroup(JanusPanel, bpy.types.Panel):
         draw_light_group(self.column(), context.object, context.view_layer)
 
 
-class JANUS_WORLD_PT_lightgroup(JanusPanel, bpy.types.Panel):
+class JANUS_WORLD_PT_lightgroup(WorldPanel, bpy.types.Panel):
     bl_label = "Light Group"
-    bl_context = "world"
     bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.world
 
     def draw(self, context):
         draw_light_group(self.column(), context.world, context.view_layer)

@@ -32,6 +32,10 @@ inline int32_t to_integer(float x) {
   return x >= -2147483648.0f && x < 2147483648.0f ? static_cast<int32_t>(x) : INT32_MIN;
 }
 inline float length2(vec3 v) { return dot(v, v); }
+// Between unit vectors, in radians. Not by the cosine, which says little of small angles.
+inline float angle_between(vec3 a, vec3 b) {
+  return 2.0f * std::atan2(glm::length(a - b), glm::length(a + b));
+}
 inline float max_component(vec3 v) { return std::max(v.x, std::max(v.y, v.z)); }
 inline float max_abs_component(vec3 v) { return max_component(glm::abs(v)); }
 inline float average(Rgb c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }

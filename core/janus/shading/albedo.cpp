@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "janus/shading/fresnel.h"
 #include "janus/shading/table_lookup.h"
 
 namespace janus {
@@ -45,11 +44,6 @@ float schlick_reflectance(float rough, float mu) {
 
 float dielectric_position(float rough, float mu, float eta) {
   return read(kFresnelPosition, Place<kCoarse>(rough), Place<kCoarse>(mu), index_place(eta));
-}
-
-float dielectric_reflectance(float rough, float mu, float eta) {
-  const float f0 = fresnel_normal(eta);
-  return f0 + (1.0f - f0) * dielectric_position(rough, mu, eta);
 }
 
 }  // namespace janus

@@ -17,10 +17,9 @@ float reflection_albedo_average(float rough);
 float glass_albedo(float rough, float mu, float eta);
 float glass_albedo_average(float rough, float eta);
 
-// Reflectance of a rough dielectric relative to one without masking: the mean Fresnel term. And
-// where that stands between straight on (0) and 1.
+// Where the mean Fresnel term of a rough dielectric, without masking, stands between its
+// reflectance straight on (0) and 1.
 float dielectric_position(float rough, float mu, float eta);
-float dielectric_reflectance(float rough, float mu, float eta);
 
 // The mean of Schlick's (1 - cos)^5, likewise.
 float schlick_reflectance(float rough, float mu);

@@ -5,7 +5,7 @@
 
 #include "janus/shading/closure_parts.h"
 #include "janus/shading/layers.h"
-#include "janus/shading/nodes/rotation.h"
+#include "janus/shading/rotation.h"
 
 namespace janus {
 

@@ -50,16 +50,13 @@ float velvet(float sigma, vec3 n, vec3 wo, vec3 wi) {
 // The cone of a Toon lobe ends here.
 float cone_angle(const Lobe& lobe) { return std::min(lobe.alpha + lobe.sigma, 0.5f * kPi); }
 
-// Light at cosine `cos` to the axis: the whole of it, and less over the angle of `sigma`.
-float toon_intensity(const Lobe& lobe, float cos) {
-  const float angle = std::acos(std::clamp(cos, -1.0f, 1.0f));
+// Light at an angle to the axis: the whole of it, and less over that of `sigma`.
+float toon_intensity(const Lobe& lobe, float angle) {
   if (angle < lobe.alpha) {
     return 1.0f;
   }
   return lobe.sigma > 0.0f ? std::max(0.0f, 1.0f - (angle - lobe.alpha) / lobe.sigma) : 0.0f;
 }
-
-bool in_cone(const Lobe& lobe, float cos) { return cos > std::cos(cone_angle(lobe)); }
 
 // 1 - its cosine, with all digits.
 float cone_opening(const Lobe& lobe) { return 2.0f * sqr(std::sin(0.5f * cone_angle(lobe))); }
@@ -109,13 +106,15 @@ LobeEval evaluate_diffuse(const Lobe& lobe, vec3 ng, const Directions& d) {
       out.pdf_radiance = 0.5f * kInvPi;
       out.f *= velvet(lobe.sigma, n, d.wo, d.wi);
       break;
-    case LobeType::DiffuseToon:
-      if (!in_cone(lobe, cos_i)) {
+    case LobeType::DiffuseToon: {
+      const float angle = angle_between(d.wi, n);
+      if (angle >= cone_angle(lobe)) {
         return {Rgb(0.0f), 0.0f, uniform};
       }
       out.pdf_radiance = toon_density(lobe);
-      out.f *= out.pdf_radiance * toon_intensity(lobe, cos_i);
+      out.f *= out.pdf_radiance * toon_intensity(lobe, angle);
       break;
+    }
     default:
       out.f *= out.pdf_radiance;
   }
@@ -167,12 +166,12 @@ LobeEval evaluate_glossy_toon(const Lobe& lobe, const Directions& d) {
   if (!d.same_side() || !(dot(n, d.wo) > 0.0f && dot(n, d.wi) > 0.0f)) {
     return {};
   }
-  const float cos = dot(reflect_about(d.wo, n), d.wi);
-  if (!in_cone(lobe, cos)) {
+  const float angle = angle_between(reflect_about(d.wo, n), d.wi);
+  if (angle >= cone_angle(lobe)) {
     return {};
   }
   const float density = toon_density(lobe);
-  return {lobe.weight * (density * toon_intensity(lobe, cos)), density, density};
+  return {lobe.weight * (density * toon_intensity(lobe, angle)), density, density};
 }
 
 std::optional<vec3> sample_glossy_toon(const Lobe& lobe, vec3 ng, vec3 from, vec2 u) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Lobes of GGX facets: reflection at a metal, a dielectric, or a coat; and glass.
+// Lobes of facets: reflection at a metal, a dielectric, or a coat; and glass.
 #pragma once
 
 #include "janus/shading/scatter.h"
@@ -20,8 +20,9 @@ inline ThinFilm film(const Lobe& lobe) { return {lobe.sigma, lobe.tilt}; }
 Rgb reflectance(const Lobe& lobe, float cos);
 
 // Reflection and refraction at a facet of a Glass or Refraction lobe: what they keep, and the
-// probability of choosing reflection. Both are the same from both ends of a refraction. `eta`:
-// index of the far side.
+// probability of choosing reflection. `eta`: index of the far side. Both are the same from both
+// ends of a refraction, but where there is a film: Cycles takes the way within it, seen from the
+// glass, relative to the glass. Values are those of the camera side.
 struct GlassEvents {
   Rgb reflected, transmitted;
   float pmf_reflect;

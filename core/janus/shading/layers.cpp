@@ -68,12 +68,16 @@ Rgb covers_transmittance(const Lobe& lobe, vec3 ng, vec3 wo) {
 float covered_share(const Lobe& lobe, float cos) {
   // Light walks arrive at grazing angles without the loss that the camera side sees.
   constexpr float kLeast = 0.25f;
+  constexpr float kSheen = 0.2f;  // what it reflects, more or less
   float share = 1.0f;
   for (const Lobe* layer = &lobe; layer->above;) {
     layer -= layer->above;
-    const bool sheen = layer->type == LobeType::Sheen;
-    const float albedo = sheen ? 1.0f : max_component(reflectance(*layer, cos));
-    share *= 1.0f - albedo * (sheen ? 0.2f : layer->type == LobeType::Coat ? layer->sigma : 1.0f);
+    if (layer->type == LobeType::Sheen) {
+      share *= 1.0f - kSheen;
+    } else {
+      const float whole = layer->type == LobeType::Coat ? layer->sigma : 1.0f;
+      share *= 1.0f - whole * max_component(reflectance(*layer, cos));
+    }
   }
   return std::max(kLeast, share);
 }

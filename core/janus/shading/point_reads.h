@@ -4,8 +4,8 @@
 #pragma once
 
 #include "janus/math/hash.h"
-#include "janus/shading/nodes/rotation.h"
 #include "janus/shading/operation.h"
+#include "janus/shading/rotation.h"
 
 namespace janus {
 

@@ -3,8 +3,7 @@
 // Interference in a thin film on facets: the reflectance of all bounces within it by Airy's sum,
 // over the spectrum by the Fourier transforms of the sensitivities of the three channels (Belcour &
 // Barla, "A Practical Extension to Microfacet Theory for the Modeling of Varying Iridescence",
-// 2017). In air; as Cycles has it from 5.0 on. Reflectances are the same from both ends of a
-// refraction.
+// 2017). In air; as Cycles has it from 5.0 on.
 #pragma once
 
 #include "janus/math/vec.h"

@@ -68,10 +68,12 @@ TEST(AlbedoTables, Averages) {
 TEST(AlbedoTables, SmoothReflectanceIsFresnels) {
   for (const float mu : {0.2f, 0.4f, 0.8f, 1.0f}) {  // entries
     for (const float eta : {1.2f, 1.5f, 2.0f}) {
-      EXPECT_NEAR(dielectric_reflectance(0, mu, eta), fresnel_dielectric(mu, eta), 0.01);
+      const float f0 = fresnel_normal(eta);
+      EXPECT_NEAR(f0 + (1 - f0) * dielectric_position(0, mu, eta), fresnel_dielectric(mu, eta),
+                  0.01);
     }
   }
-  EXPECT_TRUE(std::isfinite(dielectric_reflectance(NAN, NAN, 1.5f)));
+  EXPECT_TRUE(std::isfinite(dielectric_position(NAN, NAN, 1.5f)));
   EXPECT_EQ(reflection_albedo(0, 0.3f), 1.0f);
   EXPECT_EQ(reflection_albedo(2, 2), reflection_albedo(1, 1));
 }
@@ -185,6 +187,17 @@ TEST(Furnace, Sheen) {
       // A white cover over white: what it reflects does not go below.
       const Bsdf covered = make({sheen_lobe(kWhite, roughness), below(diffuse_lobe(kWhite))});
       EXPECT_NEAR(integrated(covered.view(kNg), at_cosine(mu)), 1, 3e-3);
+    }
+  }
+}
+
+// A cone without an edge sends all light back, however narrow it is.
+TEST(Furnace, Toon) {
+  for (const bool glossy : {false, true}) {
+    for (const float size : {0.0f, 1e-3f, 0.3f}) {
+      const Bsdf toon = make({toon_lobe(glossy, kWhite, size, 0)});
+      EXPECT_NEAR(albedo(toon.view(kNg), at_cosine(0.95f), 2000).mean(), 1, 1e-3)
+          << glossy << " " << size;
     }
   }
 }

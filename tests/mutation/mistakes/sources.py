@@ -17,6 +17,7 @@ MIS = "core/janus/path/mis.h"
 PILOT = "core/janus/integrator/pilot.h"
 ROULETTE = "core/janus/path/roulette.h"
 SKY = "core/janus/light/program_sky.cpp"
+SCATTER = "core/janus/shading/scatter.cpp"
 SUBPATH = "core/janus/path/subpath.h"
 
 # Wildcards, because files of tests are split and merged.

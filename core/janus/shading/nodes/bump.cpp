@@ -6,8 +6,8 @@
 
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/families.h"
-#include "janus/shading/nodes/rotation.h"
 #include "janus/shading/point_reads.h"
+#include "janus/shading/rotation.h"
 
 namespace janus {
 

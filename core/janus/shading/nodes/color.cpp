@@ -7,7 +7,7 @@
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/color_space.h"
 #include "janus/shading/nodes/families.h"
-#include "janus/shading/nodes/scalar.h"
+#include "janus/shading/scalar.h"
 
 namespace janus {
 

@@ -56,10 +56,7 @@ float elevation_of(vec3 d) { return 0.5f * kPi - std::acos(std::clamp(d.z, -1.0f
 // The sun's radiance in a direction, dimmed towards its edge; nullopt: it is not there. `height`:
 // between its lower and its upper edge.
 std::optional<Rgb> sun_radiance(const Sun& sun, vec3 d, float height) {
-  // Not by the cosine, which says little of small angles.
-  const float off =
-      2.0f * std::atan2(glm::length(d - sun.direction), glm::length(d + sun.direction));
-  const float x = off / (0.5f * sun.angle);
+  const float x = angle_between(d, sun.direction) / (0.5f * sun.angle);
   if (!(sun.angle >= 0.0f && x < 1.0f)) {
     return std::nullopt;
   }

@@ -7,7 +7,7 @@
 #include "janus/image/latlong.h"
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/families.h"
-#include "janus/shading/nodes/rotation.h"
+#include "janus/shading/rotation.h"
 
 namespace janus {
 

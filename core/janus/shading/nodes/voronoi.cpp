@@ -5,8 +5,8 @@
 
 #include "janus/shading/nodes/coordinates.h"
 #include "janus/shading/nodes/families.h"
-#include "janus/shading/nodes/rotation.h"
-#include "janus/shading/nodes/scalar.h"
+#include "janus/shading/rotation.h"
+#include "janus/shading/scalar.h"
 
 namespace janus {
 

@@ -28,7 +28,7 @@ struct Atmosphere {
 // The radiance of the sky, without the sun, as linear Rec.709 that may be below 0. From column 0 on
 // the azimuth grows by a turn; the sun stands in the middle. The row `v` shows the elevation
 // pi/2 (2v - 1)^2, with the sign of 2v - 1; that of Nishita's pi/2 v^2. (How centres of pixels lie
-// is the model's.) Computed in some 50 ms by all threads; the last few are kept.
+// is the model's.) Computed in some 100 ms by all threads; the last few are kept.
 std::shared_ptr<const Image> sky_picture(const Atmosphere& atmosphere);
 
 // The irradiance, as linear Rec.709 that may be below 0, of a surface that faces a sun as small as

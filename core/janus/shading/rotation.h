@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "janus/math/vec.h"
-#include "janus/shading/nodes/scalar.h"
+#include "janus/shading/scalar.h"
 
 namespace janus {
 
