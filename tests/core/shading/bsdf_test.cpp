@@ -47,7 +47,7 @@ const BsdfCase kCases[] = {
     {"beckmann_refraction", {with_beckmann(refraction_lobe(kWhite, 1.4f, 0.25f))}},
     {"film_metal", {with_film(metal_lobe(kWhite, Rgb(0.8f), 0.3f), 400, 1.4f)}},
     {"film_glass",  // a film looks thinner from within
-     {with_film(glass_lobe(kWhite, Rgb(0.9f), true, 1.5f, 0.25f), 350, 1.8f)},
+     {with_film(glass_lobe(kWhite, Rgb(0.9f), true, 1.5f, 0.25f), 100, 2.4f)},
      false,
      false},
     {"brushed", {glossy_lobe(Rgb(0.9f), kBrushed)}},

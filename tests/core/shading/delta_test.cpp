@@ -19,11 +19,9 @@ std::optional<BsdfSample> event_towards(const BsdfView& bsdf, vec3 from, vec3 to
   return std::nullopt;
 }
 
-TEST(Delta, BothWalksKnowEachOthersProbabilities) {
-  // How often the glass is chosen depends on the angle, and so on the side of a refraction.
-  const Bsdf storage =
-      make({diffuse_lobe(Rgb(0.6f)), placed(glass_lobe(Rgb(0.5f), Rgb(0.1f), false, 1.5f, 0.0f),
-                                            normalize(vec3(0.1f, 0.05f, 1)))});
+// How often the glass is chosen depends on the angle, and so on the side of a refraction.
+void expect_ways_back(const Lobe& glass) {
+  const Bsdf storage = make({diffuse_lobe(Rgb(0.6f)), glass});
   const BsdfView bsdf = storage.view(kNg);
   Random random(21);
   int refractions = 0, one_way = 0;
@@ -50,6 +48,14 @@ TEST(Delta, BothWalksKnowEachOthersProbabilities) {
   EXPECT_GT(refractions, 100);
   EXPECT_LT(one_way, 100);
 }
+
+const Lobe kGlass =
+    placed(glass_lobe(Rgb(0.5f), Rgb(0.1f), false, 1.5f, 0.0f), normalize(vec3(0.1f, 0.05f, 1)));
+
+TEST(Delta, BothWalksKnowEachOthersProbabilities) { expect_ways_back(kGlass); }
+
+// Each end of a refraction sees another film.
+TEST(Delta, OfFilmsToo) { expect_ways_back(with_film(kGlass, 100, 2.4f)); }
 
 }  // namespace
 }  // namespace janus::test
