@@ -237,6 +237,7 @@ struct Accel::Impl {
   std::array<View, kRayTypes> own;  // of a type that is the first to meet just these instances
   std::array<const View*, kRayTypes> view;                           // by type
   std::map<const Shape*, std::shared_ptr<const ShapeAccel>> bottom;  // of those that are needed
+  std::vector<RTCScene> bottom_of;  // by Instance::shape; null: not needed
 
   ~Impl() {
     for_each_scene([](RTCScene scene) { rtcReleaseScene(scene); });
@@ -258,9 +259,7 @@ struct Accel::Impl {
 
   const View& of(RayType type) const { return *view[static_cast<int>(type)]; }
 
-  bool intersect(const std::vector<Placement>& placements, RTCScene scene, const Ray& ray,
-                 SurfaceInteraction& hit) const {
-    RTCRayHit query = to_embree(ray);
+  static bool trace(RTCScene scene, RTCRayHit& query) {
 #if RTC_VERSION_MAJOR >= 4
     rtcIntersect1(scene, &query, nullptr);
 #else
@@ -268,7 +267,13 @@ struct Accel::Impl {
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene, &context, &query);
 #endif
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+    return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+  }
+
+  bool intersect(const std::vector<Placement>& placements, RTCScene scene, const Ray& ray,
+                 SurfaceInteraction& hit) const {
+    RTCRayHit query = to_embree(ray);
+    if (!trace(scene, query)) {
       return false;
     }
     hit.instance = query.hit.instID[0];
@@ -317,6 +322,7 @@ Accel::Accel(const ShapeList& shapes, const std::vector<Instance>& instances,
     }
   }
   placements_.reserve(instances.size());
+  impl_->bottom_of.resize(shapes.size(), nullptr);
   for (size_t i = 0; i < instances.size(); ++i) {
     const Instance& instance = instances[i];
     const std::shared_ptr<const Shape>& shape = shapes[instance.shape];
@@ -333,6 +339,7 @@ Accel::Accel(const ShapeList& shapes, const std::vector<Instance>& instances,
       bottom = std::make_shared<ShapeAccel>(impl_->device, shape, cancel);
       ++built_;
     }
+    impl_->bottom_of[instance.shape] = bottom->scene();
     RTCGeometry geometry = rtcNewGeometry(impl_->device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, bottom->scene());
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &instance.to_world);
@@ -396,6 +403,25 @@ SurfaceInteraction Accel::surface_point(uint32_t instance, uint32_t primitive, v
   placements_[instance].surface_point(primitive, b, point);
   point.instance = instance;
   return point;
+}
+
+Accel::InstanceRays::InstanceRays(const Accel& accel, uint32_t instance)
+    : accel_(accel),
+      instance_(instance),
+      to_object_(glm::inverse(accel.instances_[instance].to_world)) {}
+
+bool Accel::InstanceRays::intersect(const Ray& ray, SurfaceInteraction& hit) const {
+  // Of a direction that is not unit, so that distances are those of the world.
+  RTCRayHit query = to_embree(
+      Ray{vec3(to_object_ * vec4(ray.origin, 1.0f)), mat3(to_object_) * ray.direction, ray.t_max});
+  const Placement& placement = accel_.placements_[instance_];
+  const RTCScene scene = accel_.impl_->bottom_of[accel_.instances_[instance_].shape];
+  if (!scene || placement.round() || !Impl::trace(scene, query)) {
+    return false;
+  }
+  placement.surface_point(query.hit.primID, vec2(query.hit.u, query.hit.v), hit);
+  hit.instance = instance_;
+  return true;
 }
 
 size_t Accel::bytes() const { return impl_->device->bytes(); }

@@ -59,6 +59,19 @@ class Accel {
     return placement.round() ? placement.center(primitive, b.x) : placement.position(primitive, b);
   }
 
+  // Looks for surfaces of one instance alone.
+  class InstanceRays {
+   public:
+    InstanceRays(const Accel& accel, uint32_t instance);
+    // The nearest within (0, ray.t_max), written to `hit`; false: none.
+    bool intersect(const Ray& ray, SurfaceInteraction& hit) const;
+
+   private:
+    const Accel& accel_;
+    uint32_t instance_;
+    mat4 to_object_;
+  };
+
   // World bounds of everything.
   const Bounds& bounds() const { return bounds_; }
 

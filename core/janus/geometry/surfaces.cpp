@@ -16,7 +16,8 @@ uint32_t Surfaces::add_program(Program program, const std::string& material, flo
     shared_->material_names.push_back(material);
   }
   surfaces_.push_back({shared_->programs.back().get(), nullptr, material_index,
-                       static_cast<uint32_t>(shared_->material_names.size() - 1), false});
+                       static_cast<uint32_t>(shared_->material_names.size() - 1),
+                       VertexKind::Surface});
   return static_cast<uint32_t>(surfaces_.size() - 1);
 }
 
@@ -24,19 +25,21 @@ void Surfaces::add_aovs(uint32_t surface, Program aovs) {
   shared_->programs.push_back(std::make_unique<const Program>(std::move(aovs)));
   ++shared_->aov_programs;
   surfaces_[surface].aovs = static_cast<uint32_t>(surfaces_.size());
-  surfaces_.push_back(
-      {shared_->programs.back().get(), nullptr, material_index(surface), material(surface), false});
+  surfaces_.push_back({shared_->programs.back().get(), nullptr, material_index(surface),
+                       material(surface), VertexKind::Surface});
 }
 
 uint32_t Surfaces::bind(uint32_t surface, const Shape& shape,
                         const std::map<std::string, vec4>& own) {
   const Program& program = *surfaces_[surface].program;
-  const bool one_way = program.fibers || (shape.round() && program.transmits);
+  const VertexKind kind = program.fibers || (shape.round() && program.transmits)
+                              ? VertexKind::OneWay
+                              : VertexKind::Surface;
   uint32_t aovs = surfaces_[surface].aovs;
   if (aovs != 0) {
     aovs = bind(aovs, shape, own);
   }
-  if (program.attributes.empty() && one_way == surfaces_[surface].one_way &&
+  if (program.attributes.empty() && kind == surfaces_[surface].kind &&
       aovs == surfaces_[surface].aovs) {
     return surface;
   }
@@ -63,7 +66,7 @@ uint32_t Surfaces::bind(uint32_t surface, const Shape& shape,
     std::transform(program.attributes.begin(), program.attributes.end(), slots.get(), find);
     entry->second = static_cast<uint32_t>(surfaces_.size());
     surfaces_.push_back(
-        {&program, slots.get(), material_index(surface), material(surface), one_way, aovs});
+        {&program, slots.get(), material_index(surface), material(surface), kind, aovs});
     shared_->attributes.push_back(std::move(slots));
   }
   return entry->second;

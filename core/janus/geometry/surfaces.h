@@ -56,7 +56,7 @@ class Surfaces {
     } else {
       program.run(point(hit, view), result);
     }
-    result.bsdf.set_one_way(surfaces_[hit.material].one_way);
+    result.bsdf.set_kind(surfaces_[hit.material].kind);
   }
   // And keeps what another view needs.
   void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result,
@@ -69,7 +69,7 @@ class Surfaces {
       reshading.program = &program;
       reshading.point = point(hit, view);
       program.run(reshading.point, result);
-      result.bsdf.set_one_way(surfaces_[hit.material].one_way);
+      result.bsdf.set_kind(surfaces_[hit.material].kind);
     }
   }
   ShadingPoint point(const SurfaceInteraction& hit, vec3 view) const;
@@ -90,8 +90,8 @@ class Surfaces {
     float material_index;
     uint32_t material;
     // Light goes through the inside of what is round in an event of the surface, where the camera
-    // sees it: see Bsdf::one_way().
-    bool one_way;
+    // sees it: VertexKind::OneWay.
+    VertexKind kind;
     uint32_t aovs = 0;  // the surface whose program writes AOVs; 0, the default surface: none
   };
   struct Shared {

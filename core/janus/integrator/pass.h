@@ -71,7 +71,8 @@ class PassIntegrator : public Integrator {
 
   // Keeps the colours of what the camera sees in pixel `index`, if `v` is that.
   void see(const PathVertex& v, size_t index) {
-    if (settings_.layers.colors && v.edges == 1) {
+    if (settings_.layers.colors && v.edges == 1 &&
+        v.shading.bsdf.kind() != VertexKind::SubsurfaceExit) {
       settings_.layers.add_color(v.bsdf(), v.back, v.beta, context_.film.layers_at(index));
     }
   }

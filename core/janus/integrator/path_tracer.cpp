@@ -2,11 +2,9 @@
 //
 // Unidirectional path tracing with next event estimation. Written without path/ on purpose (only
 // roulette is shared): a second opinion on what bdpt computes.
-#include <array>
-
-#include "janus/integrator/camera_trace.h"
+#include "janus/integrator/camera_walk.h"
 #include "janus/integrator/pass.h"
-#include "janus/render/shadows_ahead.h"
+#include "janus/render/subsurface_walk.h"
 
 namespace janus {
 
@@ -28,6 +26,8 @@ class PathTracer final : public PassIntegrator {
   }
 
  private:
+  using Walk = CameraWalk;
+
   float weight(float own, float other) const {
     if (settings_.heuristic == Heuristic::Power) {
       own *= own;
@@ -35,31 +35,6 @@ class PathTracer final : public PassIntegrator {
     }
     return own / (own + other);
   }
-
-  // A walk between two vertices.
-  struct Walk {
-    Ray ray;               // from the last vertex
-    Receiver previous;     // that vertex
-    vec3 origin;           // where the present segment starts: there, or at the last crossing
-    float t_begin = 0.0f;  // its distance along the ray
-    float pdf_solid = 0.0f;
-    bool delta = true;  // no next event estimation has looked for the light ahead
-    int edges = 1, crossings = 0;
-    Rgb beta = Rgb(1.0f);
-    std::array<int, 3> bounces{};  // diffuse, glossy, transmission
-    RayType type = RayType::Camera;
-    // Of the scattering at the last vertex: the shares of diffuse lobes and of the others, and
-    // whether it was to the other side.
-    Rgb diffuse = Rgb(0.0f), rest = Rgb(1.0f);
-    bool transmitted = false;
-    // The camera has seen nothing so far but transparent surfaces and clear glass.
-    bool clear = true;
-    // Where it looks for lights with the rules of shadow rays: what lets them through so far.
-    const ShadowsAhead* shadows = nullptr;
-    CameraTrace* trace = nullptr;  // without light path expressions: none
-    std::span<Rgb> layers{};       // of the pixel
-    bool caught = false;           // the camera has seen a shadow catcher
-  };
 
   // Light of source `index` found on the way.
   Rgb found(const Walk& walk, size_t index, const LightHit& hit) const {
@@ -220,12 +195,12 @@ class PathTracer final : public PassIntegrator {
     Rgb sum(0.0f);
     for (;;) {
       ++counters.camera_rays;
-      const vec3 wo = -walk.ray.direction;
+      vec3 wo = -walk.ray.direction;
       const bool apart = looks_apart(walk);
       if (apart && walk.origin == walk.ray.origin) {  // once for the whole ray
         sum += lights_ahead(walk, counters);
       }
-      const auto hit = scene.intersect(
+      auto hit = scene.intersect(
           Ray{walk.origin, walk.ray.direction, walk.ray.t_max - walk.t_begin}, walk.type);
       if (!hit) {
         if (walk.clear && settings_.walk.film_transparent) {
@@ -274,18 +249,19 @@ class PathTracer final : public PassIntegrator {
       if (walk.edges + 1 > settings_.walk.max_edges || beyond_caps(walk.bounces)) {
         return sum;
       }
-      const BsdfView bsdf = shading.bsdf.view(hit->ng, hit->ns);
+      BsdfView bsdf = shading.bsdf.view(hit->ng, hit->ns);
       if (settings_.layers.colors && walk.edges == 1) {
         settings_.layers.add_color(bsdf, wo, walk.beta, layers);
       }
       sampler.start_block(walk.edges);
-      if (settings_.next_event && bsdf.connectible() && scene.light_sampler.illuminates()) {
-        sum += direct(*hit, bsdf, wo, walk, sampler, counters);
+      auto sample = look_and_scatter(*hit, bsdf, wo, walk, sampler, counters, sum);
+      if (sample && sample->below >= 0) {
+        if (!come_up(*sample, walk, sampler, counters, *hit, shading, wo)) {
+          return sum;
+        }
+        bsdf = shading.bsdf.view(hit->ng, hit->ns);
+        sample = look_and_scatter(*hit, bsdf, wo, walk, sampler, counters, sum);
       }
-
-      const float u_lobe = sampler.next_1d();
-      const vec2 u = sampler.next_2d();
-      const auto sample = bsdf.sample(wo, u_lobe, u, TransportMode::Radiance);
       if (!sample) {
         return sum;
       }
@@ -331,6 +307,38 @@ class PathTracer final : public PassIntegrator {
                          sampler);
       }
     }
+  }
+
+  // Light that falls on a vertex is added to `sum`; then it scatters.
+  std::optional<BsdfSample> look_and_scatter(const SurfaceInteraction& hit, const BsdfView& bsdf,
+                                             vec3 wo, const Walk& walk, Sampler& sampler,
+                                             Counters& counters, Rgb& sum) const {
+    if (settings_.next_event && bsdf.connectible() &&
+        context_.scene().light_sampler.illuminates()) {
+      sum += direct(hit, bsdf, wo, walk, sampler, counters);
+    }
+    const float u_lobe = sampler.next_1d();
+    const vec2 u = sampler.next_2d();
+    return bsdf.sample(wo, u_lobe, u, TransportMode::Radiance);
+  }
+
+  // From where the walk goes below the surface to where light falls that comes from there.
+  bool come_up(const BsdfSample& sample, Walk& walk, const Sampler& sampler, Counters& counters,
+               SurfaceInteraction& hit, ShadingResult& shading, vec3& wo) const {
+    const Scene& scene = context_.scene();
+    const Lobe lobe = shading.bsdf.lobes()[static_cast<size_t>(sample.below)];
+    SubsurfaceWalk below;
+    const auto end = below.trace(scene, hit, sample.direction, lobe, settings_.walk.roulette,
+                                 subsurface_sampler(sampler, walk.edges), counters.camera_rays);
+    if (!end) {
+      return false;
+    }
+    hit = *end;
+    walk.beta *= sample.weight * below.weight();
+    wo = dot(below.arrival(), hit.ng) < 0.0f ? -hit.ng : hit.ng;
+    scene.shade(hit, below.arrival(), shading);
+    shading.bsdf.set_kind(VertexKind::SubsurfaceExit);
+    return true;
   }
 
   // By channel.

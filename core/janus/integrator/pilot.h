@@ -9,10 +9,13 @@
 namespace janus {
 
 // A vertex that no camera vertex may join within the length limit is not worth its place in the
-// cache. `merging`: a merge adds one edge, a connection two.
+// cache. `merging`: a merge adds one edge, a connection two; and what comes up from below a surface
+// may be merged with light that falls there.
 inline bool worth_caching(const PathVertex& v, bool merging) {
-  return v.bsdf().connectible() && v.edges + (merging ? 1 : 2) <= v.max_edges &&
-         v.possible_labels(false) != 0;
+  const auto lets_below = [](const Lobe& lobe) { return lobe.type == LobeType::Subsurface; };
+  const BsdfView bsdf = v.bsdf();
+  return (bsdf.connectible() || (merging && std::ranges::any_of(bsdf.lobes(), lets_below))) &&
+         v.edges + (merging ? 1 : 2) <= v.max_edges && v.possible_labels(false) != 0;
 }
 
 // What a light path leaves in the cache, as a mean.

@@ -42,7 +42,7 @@ struct CacheBlock {
     // View-free and connectible: the rest is asked for only where it may cover another one.
     const bool layered = std::ranges::any_of(bsdf.lobes(), &Lobe::above);
     for (const Lobe& lobe : bsdf.lobes()) {
-      if (layered || !is_delta(lobe)) {
+      if (layered || (out.entry ? lobe.type == LobeType::Subsurface : is_connectible(lobe))) {
         lobes.push_back(lobe);
         ++out.lobe_count;
       }
@@ -51,7 +51,8 @@ struct CacheBlock {
   }
   BsdfView bsdf(const LightVertex& v) const {
     return {std::span(lobes).subspan(v.first_lobe, v.lobe_count), v.ng, v.ns,
-            v.reshading < 0 ? nullptr : &reshadings[static_cast<size_t>(v.reshading)]};
+            v.reshading < 0 ? nullptr : &reshadings[static_cast<size_t>(v.reshading)],
+            v.entry ? VertexKind::SubsurfaceEntry : VertexKind::Surface};
   }
   std::span<const WeightedState> states_of(const LightVertex& v) const {
     return std::span(states).subspan(v.first_state, v.state_count);

@@ -27,6 +27,7 @@ LightVertex::LightVertex(const PathVertex& v)
       transmits(v.bsdf().transmits()),
       hidden(v.hidden),
       held(v.held),
+      entry(v.shading.bsdf.kind() == VertexKind::SubsurfaceEntry),
       labels(v.possible_labels(false) & (v.edges == 1 ? v.source : kLabels)),
       seen_by(v.visibility & kLabels) {}
 
@@ -184,7 +185,7 @@ std::optional<Merge> merge_vertices(const LightVertex& l, const PathVertex& c, c
   constexpr float kSameSurface = 0.7f;  // cosine between the normals
   std::optional<Merge> merged;
   const int edges = l.edges + c.edges;
-  if (edges > l.max_edges || l.crossings + c.crossings > rules.max_crossings ||
+  if (l.entry || edges > l.max_edges || l.crossings + c.crossings > rules.max_crossings ||
       dot(l.ng, c.hit.ng) < kSameSurface || c.shading.bsdf.one_way()) {
     return merged;
   }

@@ -42,6 +42,7 @@ struct LightVertex {
   uint8_t lobe_count : 4;
   uint8_t transmits : 1;
   uint8_t hidden : 1, held : 1;  // PathVertex::hidden, held
+  uint8_t entry : 1;             // VertexKind::SubsurfaceEntry
   // Labels: which the vertex may have (z_1: which see the light), and which see its object.
   uint8_t labels : 3, seen_by : 3;
 

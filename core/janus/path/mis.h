@@ -105,6 +105,24 @@ class Mis {
     return state;
   }
 
+  // At the other end of a vertex where a walk has gone below the surface (path/subsurface.h). A
+  // camera walk comes up at the exit, a light walk at the entry. `pdf_reverse`: of the opposite
+  // walk leaving the first end backwards; `ratio`: of the opposite walk's density between the ends
+  // to this one's, whole but for what the opposite walk does at this end. Merging takes place at
+  // the exit.
+  MisState exit(MisState entry, float pdf_reverse, float ratio) const {
+    entry.a.merge = 0.0f;
+    MisState state;
+    state.b = (entry.a + entry.b * raise(pdf_reverse)) * raise(ratio);
+    state.a.merge = 1.0f;
+    return state;
+  }
+  MisState entry(const MisState& exit, float pdf_reverse, float ratio) const {
+    MisState state;
+    state.b = (exit.a + exit.b * raise(pdf_reverse)) * raise(ratio);
+    return state;
+  }
+
   // s=0, k>=2: light found by the camera walk with density `pdf_solid` from z_1, where `behind`
   // lies behind z_1 and `delta` says how z_1 scattered.
   MisWeight weight_hit(float pdf_solid, bool delta, float pdf_nee, float joint,

@@ -9,10 +9,10 @@ namespace janus {
 
 namespace {
 
-// What the definition needs of a scattering vertex.
+// What the definition needs of a scattering vertex: as it stands for what is on the light's side
+// and on the camera's side, which differ where light goes below a surface.
 struct Scattering {
-  vec3 p, ng;
-  const PathVertex* vertex;
+  const PathVertex *light, *camera;
   bool delta = false;                                     // as sampled; joins make it false
   double discrete_radiance = 0, discrete_importance = 0;  // of the delta event
 };
@@ -29,37 +29,67 @@ struct FullPath {
   int k() const { return static_cast<int>(interior.size()) + 1; }
   const Scattering& z(int i) const { return interior[i - 1]; }
 
-  vec3 wi(int i) const { return i == 1 ? to_light : normalize(z(i - 1).p - z(i).p); }
-  vec3 wo(int i) const { return normalize((i == k() - 1 ? camera.lens : z(i + 1).p) - z(i).p); }
+  vec3 entry(int i) const { return z(i).camera->hit.p; }
+  vec3 exit(int i) const { return z(i).light->hit.p; }
+  bool below(int i) const { return z(i).light != z(i).camera; }
+  vec3 wi(int i) const { return i == 1 ? to_light : normalize(entry(i - 1) - exit(i)); }
+  vec3 wo(int i) const { return normalize((i == k() - 1 ? camera.lens : exit(i + 1)) - entry(i)); }
   double pdf(int i, TransportMode mode) const {
     if (z(i).delta) {
       return mode == TransportMode::Radiance ? z(i).discrete_radiance : z(i).discrete_importance;
     }
-    return z(i).vertex->bsdf().pdf_solid(wo(i), wi(i), mode);
+    if (below(i)) {
+      const bool radiance = mode == TransportMode::Radiance;
+      const PathVertex& end = radiance ? *z(i).light : *z(i).camera;
+      return radiance ? end.bsdf().pdf_solid(end.back, wi(i), mode)
+                      : end.bsdf().pdf_solid(wo(i), end.back, mode);
+    }
+    return z(i).light->bsdf().pdf_solid(wo(i), wi(i), mode);
   }
+  // Of going below at z_i, and coming up where the other end is: of light walks relative to those
+  // of the camera, whose density but for the direction at the entry is the unit.
+  double light_below(int i) const {
+    const PathVertex& end = *z(i).light;
+    return passage(i).light_over_camera == 0.0
+               ? 0.0
+               : end.bsdf().pdf_solid(end.back, wi(i), TransportMode::Importance) *
+                     passage(i).light_over_camera;
+  }
+  double camera_below(int i) const {
+    const PathVertex& end = *z(i).camera;
+    return passage(i).light_over_camera == 0.0
+               ? 1.0
+               : end.bsdf().pdf_solid(wo(i), end.back, TransportMode::Radiance);
+  }
+  const Passage& passage(int i) const { return z(i).light->passage; }
   // |cos| at `at` over the squared distance to `from`.
-  double geometry(vec3 at, vec3 ng, vec3 from) const {
-    const vec3 d = from - at;
-    return std::abs(dot(ng, normalize(d))) / static_cast<double>(length2(d));
+  double geometry(const SurfaceInteraction& at, vec3 from) const {
+    const vec3 d = from - at.p;
+    return std::abs(dot(at.ng, normalize(d))) / static_cast<double>(length2(d));
   }
   double pr(int i) const {  // density of z_i from the camera side
+    double solid = 0.0;
     if (i == k() - 1) {
-      return camera_density(camera.density, std::abs(dot(z(i).ng, wo(i))),
-                            length2(camera.lens - z(i).p));
+      solid = camera_density(camera.density, std::abs(dot(z(i).camera->hit.ng, wo(i))),
+                             length2(camera.lens - entry(i)));
+    } else {
+      solid = pdf(i + 1, TransportMode::Radiance);
+      solid *= i == 0 ? 1.0 : geometry(z(i).camera->hit, exit(i + 1));
     }
-    const double solid = pdf(i + 1, TransportMode::Radiance);
-    return i == 0 ? solid : solid * geometry(z(i).p, z(i).ng, z(i + 1).p);
+    return i > 0 && below(i) ? solid * camera_below(i) : solid;
   }
-  double pf(int i) const {  // density of z_i, i >= 2, from the light side
-    return pdf(i - 1, TransportMode::Importance) * geometry(z(i).p, z(i).ng, z(i - 1).p);
+  double arrival(int i) const {  // density of z_i, i >= 2, from the light side, or of its exit
+    return pdf(i - 1, TransportMode::Importance) * geometry(z(i).light->hit, entry(i - 1));
   }
+  double pf(int i) const { return below(i) ? arrival(i) * light_below(i) : arrival(i); }
   double shortest_edge2() const {  // between scattering vertices, squared
     double shortest = std::numeric_limits<double>::infinity();
     for (int i = 2; i < k(); ++i) {
-      shortest = std::min<double>(shortest, length2(z(i).p - z(i - 1).p));
+      shortest = std::min<double>(shortest, length2(exit(i) - entry(i - 1)));
     }
     return shortest;
   }
+  bool one_way(int i) const { return z(i).light->bsdf().kind() == VertexKind::OneWay; }
   bool allowed(int s) const {
     if (s == 0) {
       return hittable;
@@ -67,7 +97,7 @@ struct FullPath {
     if (s == 1) {
       return !z(1).delta;
     }
-    if (z(s - 1).vertex->bsdf().one_way()) {
+    if (one_way(s - 1)) {
       return false;  // no walk from a light ends there
     }
     if (s == k()) {
@@ -77,6 +107,7 @@ struct FullPath {
   }
   double density(int s) const {
     double product = s == 0 ? pr(0) : s == 1 ? pdf_nee : joint;
+    product *= s > 1 && below(1) ? light_below(1) : 1.0;
     for (int i = 2; i < s; ++i) {
       product *= pf(i);
     }
@@ -89,7 +120,7 @@ struct FullPath {
     return s == 0 ? n.hit : s == 1 ? n.nee : s == k() ? n.splat : n.connection;
   }
   // Of both walks arriving at z_i, i >= 2, per area of the neighbourhood that counts as z_i.
-  double merge_density(int i) const { return density(i) * pf(i); }
+  double merge_density(int i) const { return density(i) * arrival(i); }
   double weight(int s, Heuristic heuristic, const SampleCounts& counts) const {
     const double exponent = heuristic == Heuristic::Power ? 2.0 : 1.0;
     double total = 0.0, own = 0.0;
@@ -102,15 +133,11 @@ struct FullPath {
       own = i == s ? term : own;
     }
     for (int i = 2; i < k() && counts.merge > 0.0f; ++i) {
-      total += z(i).delta || z(i).vertex->bsdf().one_way()
-                   ? 0.0
-                   : std::pow(counts.merge * merge_density(i), exponent);
+      total += z(i).delta || one_way(i) ? 0.0 : std::pow(counts.merge * merge_density(i), exponent);
     }
     return total > 0.0 ? own / total : 0.0;
   }
 };
-
-Scattering scattering(const PathVertex& v) { return {v.hit.p, v.hit.ng, &v}; }
 
 void set_delta(Scattering& s, const Departure& left, TransportMode walk) {
   const bool radiance = walk == TransportMode::Radiance;
@@ -119,23 +146,56 @@ void set_delta(Scattering& s, const Departure& left, TransportMode walk) {
   s.discrete_importance = radiance ? left.pdf_reverse : left.pdf_solid;
 }
 
-// z_1 ... z_i from the light walk, then z_{i+1} ... from the camera walk (its last vertex first).
-// The vertices at which the walks end were left by no event: they are joined.
-FullPath join(const std::vector<PathVertex>& light, int i, const std::vector<PathVertex>& camera,
-              int j) {
+// What a walk has seen, from its start. Where it has been below a surface, two in a row are one
+// vertex.
+struct Visits {
+  std::vector<PathVertex> all;
+  // The first ends of those vertices, as the opposite walk comes up there.
+  std::vector<PathVertex> first_ends;
+
+  bool came_up(size_t n) const { return n > 0 && all[n].edges == all[n - 1].edges; }
+
+  void add(const PathVertex& v, TransportMode mode) {
+    all.push_back(v);
+    first_ends.push_back(v);
+    if (came_up(all.size() - 1)) {
+      PathVertex& first = first_ends[all.size() - 2];
+      const bool camera = mode == TransportMode::Radiance;
+      first.shading.bsdf.set_kind(camera ? VertexKind::SubsurfaceEntry
+                                         : VertexKind::SubsurfaceExit);
+      for (Lobe& lobe : first.shading.bsdf.lobes()) {
+        if (camera && lobe.type == LobeType::Subsurface) {
+          lobe.edge = v.passage.below;
+        }
+      }
+      first.passage = v.passage;
+    }
+  }
+
+  // The vertices of the first `count` visits. The last is joined: it was left by no event.
+  std::vector<Scattering> vertices(size_t count, TransportMode mode) const {
+    std::vector<Scattering> result;
+    for (size_t n = 0; n < count; ++n) {
+      Scattering& s = result.emplace_back(Scattering{&all[n], &all[n]});
+      if (n + 1 < count && came_up(n + 1)) {
+        (mode == TransportMode::Radiance ? s.camera : s.light) = &first_ends[n];
+        (mode == TransportMode::Radiance ? s.light : s.camera) = &all[++n];
+      }
+      if (n + 1 < count) {
+        set_delta(s, all[n + 1].previous, mode);
+      }
+    }
+    return result;
+  }
+};
+
+// z_1 ... from the first visits of the light walk, then those of the camera walk, whose last vertex
+// comes first.
+FullPath join(const Visits& light, size_t i, const Visits& camera, size_t j) {
   FullPath path;
-  for (int n = 0; n < i; ++n) {
-    path.interior.push_back(scattering(light[n]));
-    if (n + 1 < i) {
-      set_delta(path.interior.back(), light[n + 1].previous, TransportMode::Importance);
-    }
-  }
-  for (int n = j - 1; n >= 0; --n) {
-    path.interior.push_back(scattering(camera[n]));
-    if (n + 1 < j) {
-      set_delta(path.interior.back(), camera[n + 1].previous, TransportMode::Radiance);
-    }
-  }
+  path.interior = light.vertices(i, TransportMode::Importance);
+  const auto seen = camera.vertices(j, TransportMode::Radiance);
+  path.interior.insert(path.interior.end(), seen.rbegin(), seen.rend());
   return path;
 }
 
@@ -169,19 +229,19 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
     ++check.by_class[s < 2 ? s : s == path.k() ? 3 : 2];
   };
 
-  std::vector<PathVertex> light, camera_vertices;
+  Visits light, seen;
   if (scene.light_sampler.emits()) {
     Sampler sampler(seed, Stream::Light, 0, index);
     trace_light_subpath(
         scene, mis, settings, sampler, counters, [&](const PathVertex& v, Sampler& walk_sampler) {
-          light.push_back(v);
+          light.add(v, TransportMode::Importance);
           if (counts.splat == 0.0f) {
             return;
           }
           const vec2 u_lens = walk_sampler.next_2d();
           if (const auto splat = connect_to_camera(v, camera, u_lens, kInfinity, mis, settings)) {
-            FullPath path = join(light, v.edges, {}, 0);
-            set_light(path, light[0].light_end);
+            FullPath path = join(light, light.all.size(), {}, 0);
+            set_light(path, light.all[0].light_end);
             path.camera = splat->end;
             compare(path, v.edges + 1, splat->connection.weight.value);
           }
@@ -193,31 +253,31 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
     if (found.edges < 2 || counts.hit == 0.0f) {
       return;
     }
-    FullPath path = join({}, 0, camera_vertices, found.edges - 1);
+    FullPath path = join({}, 0, seen, seen.all.size());
     set_delta(path.interior.front(), found.previous, TransportMode::Radiance);
     set_light(path, found.end);
-    path.camera = camera_vertices[0].camera_end;
+    path.camera = seen.all[0].camera_end;
     compare(path, 0, found.weight.value);
   };
   const auto on_vertex = [&](const PathVertex& v, Sampler& walk_sampler) {
-    camera_vertices.push_back(v);
-    const int j = static_cast<int>(camera_vertices.size());
+    seen.add(v, TransportMode::Radiance);
+    const size_t j = seen.all.size();
     if (counts.nee > 0.0f && scene.light_sampler.illuminates()) {
       if (const auto nee = connect_to_light(scene, v, mis, settings, walk_sampler)) {
-        FullPath path = join({}, 0, camera_vertices, j);
+        FullPath path = join({}, 0, seen, j);
         set_light(path, nee->end);
-        path.camera = camera_vertices[0].camera_end;
+        path.camera = seen.all[0].camera_end;
         compare(path, 1, nee->connection.weight.value);
       }
     }
-    for (int i = 1; i <= static_cast<int>(light.size()) && counts.connection > 0.0f; ++i) {
-      const PathVertex& l = light[i - 1];
+    for (size_t i = 1; i <= light.all.size() && counts.connection > 0.0f; ++i) {
+      const PathVertex& l = light.all[i - 1];
       if (const auto connection = connect_vertices(LightVertex(l), l.bsdf(), v, mis, settings, 1.0f,
                                                    Roulette(), walk_sampler, counters)) {
-        FullPath path = join(light, i, camera_vertices, j);
-        set_light(path, light[0].light_end);
-        path.camera = camera_vertices[0].camera_end;
-        compare(path, i + 1, connection->weight.value);
+        FullPath path = join(light, i, seen, j);
+        set_light(path, light.all[0].light_end);
+        path.camera = seen.all[0].camera_end;
+        compare(path, l.edges + 1, connection->weight.value);
       }
     }
   };

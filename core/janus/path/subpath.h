@@ -5,16 +5,10 @@
 #pragma once
 
 #include "janus/camera/camera.h"
-#include "janus/path/catching.h"
-#include "janus/path/clear_view.h"
 #include "janus/path/flight.h"
+#include "janus/path/step.h"
 
 namespace janus {
-
-struct WalkSettings : PathRules {
-  bool roulette = true;
-  bool specular = false;  // a camera walk ends where it does not scatter by a delta
-};
 
 // Light found on the segment after a camera vertex: a path of technique s=0 with `edges` edges.
 struct LightFound {
@@ -29,77 +23,6 @@ struct LightFound {
   const PathTrace* trace;  // of the camera's side; see PathVertex
   bool caught;             // likewise
 };
-
-// State of a walk between two vertices.
-struct WalkStep {
-  Ray ray;
-  Departure left;
-  ClassSums behind;
-  Rgb beta;
-  float cos_previous;
-  RayType label = RayType::Diffuse;  // if PathRules::labels()
-  // Of the vertex, for the light that comes next; if PathRules::ray_types.
-  Rgb value = Rgb(1.0f), diffuse = Rgb(0.0f);
-  bool transmitted = false;
-  bool clear = false;  // the vertex kept a clear view, or would hide what is hidden
-
-  Rgb lit_share(RayMask visibility) const {
-    return janus::lit_share(value, diffuse, transmitted, visibility);
-  }
-};
-
-// Takes the expressions past `v`, whose event has got `label`.
-void read_event(const PathVertex& v, const BsdfSample& sample, TransportMode mode,
-                const WalkSettings& settings, const Sampler& sampler, RayType label);
-
-// Scatters at `v`, applies roulette and writes `step`. `start`: throughput 1 of this walk;
-// `eta_scale`: product of the refractions so far. False when the walk ends.
-inline bool scatter(const PathVertex& v, const Mis& mis, Sampler& sampler, TransportMode mode,
-                    const WalkSettings& settings, float start, float& eta_scale, WalkStep& step) {
-  const float u_lobe = sampler.next_1d();
-  const vec2 u = sampler.next_2d();
-  const auto sample = v.bsdf().sample(v.back, u_lobe, u, mode);
-  if (!sample) {
-    return false;
-  }
-  Rgb beta = v.beta * sample->weight;
-  if (settings.labels()) {
-    LabelShares shares = LabelShares::sampled(*sample);
-    if (settings.ray_types) {
-      step.value = sample->weight;
-      step.diffuse = sample->diffuse;
-      step.transmitted = sample->transmitted;
-      if (mode == TransportMode::Importance) {
-        shares = shares.within(v.possible_labels(sample->delta));
-        beta *= shares.sum() * (v.edges == 1 ? step.lit_share(v.source) : Rgb(1.0f));
-      }
-    }
-    if (shares.sum() == 0.0f) {
-      return false;
-    }
-    step.label = shares.draw(sampler);
-  }
-  step.clear = settings.clear_glass >= 0.0f &&
-               (mode == TransportMode::Radiance ? v.clear : v.hidden) &&
-               leaves_clear(settings, v, *sample, mode, sampler);
-  if (v.trace) {
-    read_event(v, *sample, mode, settings, sampler, step.label);
-  }
-  eta_scale *= sample->eta_scale;
-  const float q = settings.roulette ? survival(beta / start, eta_scale, v.edges) : 1.0f;
-  if (is_black(beta) || !is_finite(beta) || (q < 1.0f && sampler.next_1d() >= q)) {
-    return false;
-  }
-  const vec3 d = sample->direction;
-  step.ray.origin = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, d);
-  step.ray.direction = d;
-  step.ray.t_max = kInfinity;
-  step.left = {sample->delta, sample->pdf_solid, sample->pdf_reverse};
-  step.behind = mis.behind(v.mis, sample->delta, sample->pdf_reverse);
-  step.beta = beta / q;
-  step.cos_previous = std::abs(dot(d, v.hit.ng));
-  return true;
-}
 
 // For walks of which nobody watches the segments.
 struct NoSegments {
@@ -200,14 +123,24 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   float eta_scale = 1.0f;
   WalkStep step;
   for (;;) {
-    v.held = settings.holdouts && holds_out(scene, v);
-    v.caught = settings.catchers && catches(scene, v.hit);
-    on_vertex(v, sampler);
+    const auto visit = [&] {
+      v.held = settings.holdouts && holds_out(scene, v);
+      v.caught = settings.catchers && catches(scene, v.hit);
+      on_vertex(v, sampler);
+    };
+    visit();
     if (v.edges + (kWatched ? 1 : 2) > (v.edges == 1 ? settings.max_edges : v.max_edges)) {
       return;
     }
     sampler.start_block(v.edges);
-    if (!scatter(v, mis, sampler, TransportMode::Importance, settings, start, eta_scale, step)) {
+    Turn turn = scatter(scene, v, mis, sampler, TransportMode::Importance, settings, start,
+                        eta_scale, counters.light_rays, step);
+    if (turn == Turn::ComesUp) {
+      visit();
+      turn = scatter(scene, v, mis, sampler, TransportMode::Importance, settings, start, eta_scale,
+                     counters.light_rays, step);
+    }
+    if (turn == Turn::Ends) {
       return;
     }
     if (v.edges == 1 && step.left.delta) {
@@ -375,7 +308,14 @@ ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2
     sampler.start_block(v.edges);
     on_vertex(v, sampler);
 
-    if (!scatter(v, mis, sampler, TransportMode::Radiance, settings, 1.0f, eta_scale, step)) {
+    Turn turn = scatter(scene, v, mis, sampler, TransportMode::Radiance, settings, 1.0f, eta_scale,
+                        counters.camera_rays, step);
+    if (turn == Turn::ComesUp) {
+      on_vertex(v, sampler);
+      turn = scatter(scene, v, mis, sampler, TransportMode::Radiance, settings, 1.0f, eta_scale,
+                     counters.camera_rays, step);
+    }
+    if (turn == Turn::Ends) {
       return coverage;
     }
     specular = specular && step.left.delta;

@@ -32,6 +32,14 @@ struct Departure {
   float pdf_solid = 0.0f, pdf_reverse = 0.0f;
 };
 
+// The way below the surface between the ends of a vertex (path/subsurface.h): its direction at the
+// entry, and the densities of light walks over those of camera walks, apart from how these go
+// below.
+struct Passage {
+  vec3 below = vec3(0.0f);
+  double light_over_camera = 0.0;
+};
+
 // A scattering vertex of a subpath.
 struct PathVertex {
   SurfaceInteraction hit;
@@ -58,6 +66,7 @@ struct PathVertex {
   int max_edges;       // light subpaths: of the whole path, with this vertex no delta if it is z_1
   LightEnd light_end;  // light subpaths: their start
   CameraEnd camera_end;  // camera subpaths: theirs
+  Passage passage;       // of a SubsurfaceEntry or SubsurfaceExit
 
   BsdfView bsdf() const {
     return shading.bsdf.view(hit.ng, hit.ns, reshading.program ? &reshading : nullptr);

@@ -10,14 +10,6 @@ namespace janus {
 
 namespace {
 
-// Probability of choosing a lobe for a walk that arrives with the Schlick factor `grazing` of its
-// cosine to Ng.
-float pmf(const Lobe& lobe, float grazing) {
-  return lobe.pmf_normal + grazing * (lobe.pmf_grazing - lobe.pmf_normal);
-}
-
-float grazing(float w_ng) { return schlick(std::abs(w_ng)); }
-
 // d omega_o / d omega_i of a delta event: 1 for a reflection; for a refraction
 // (eta_light / eta_camera)^2 |wi . N| / |wo . N|, because n^2 cos(theta) d omega is invariant.
 float refraction_jacobian(vec3 wo, vec3 wi, vec3 n, float eta2_light_over_camera) {
@@ -77,7 +69,7 @@ float Bsdf::albedo() const {
 
 float BsdfView::peak() const {
   constexpr float kUnknown = 1e15f;
-  if (reshading_) {
+  if (reshading_ || kind_ == VertexKind::SubsurfaceEntry) {
     return kUnknown;  // and roulette must not end what another view shows
   }
   float sum = 0.0f;
@@ -103,11 +95,11 @@ bool BsdfView::connectible() const {
     return true;  // from somewhere
   }
   for (const Lobe& lobe : lobes_) {
-    if (!is_delta(lobe)) {
+    if (is_connectible(lobe)) {
       return true;
     }
   }
-  return false;
+  return kind_ == VertexKind::SubsurfaceEntry || kind_ == VertexKind::SubsurfaceExit;
 }
 
 bool BsdfView::transmits() const {
@@ -148,11 +140,14 @@ BsdfEval BsdfView::evaluate(vec3 wo, vec3 wi, TransportMode mode) const {
   if (d.wo_ng == 0.0f || d.wi_ng == 0.0f) {
     return sum;
   }
+  if (kind_ > VertexKind::OneWay) [[unlikely]] {
+    return evaluate_end(d, mode);
+  }
   add_lobes(lobes_, ng_, d, sum);
   if (reshading_ && !alike(*reshading_, wo, wi)) {
     reshade(d, sum);
   }
-  if (one_way_) {
+  if (kind_ == VertexKind::OneWay) {
     sum.pdf_importance = 0.0f;
   }
   if (mode == TransportMode::Importance) {
@@ -188,6 +183,9 @@ std::optional<BsdfSample> BsdfView::sample(vec3 from, float u_lobe, vec2 u,
   if (from_ng == 0.0f) {
     return std::nullopt;
   }
+  if (kind_ > VertexKind::OneWay) [[unlikely]] {
+    return sample_end(from, u, mode);
+  }
   const float grazing_from = grazing(from_ng);
   const Lobe* lobe = nullptr;
   float chosen = 1.0f, u_event = 0.0f;
@@ -207,6 +205,9 @@ std::optional<BsdfSample> BsdfView::sample(vec3 from, float u_lobe, vec2 u,
   if (!lobe) {
     return std::nullopt;
   }
+  if (lobe->type == LobeType::Subsurface) {
+    return sample_below(*lobe, chosen, from, u, mode);
+  }
   return is_delta(*lobe) ? sample_event(*lobe, chosen, from, u.x, mode)
                          : sample_direction(*lobe, from, u_event, u, mode);
 }
@@ -214,7 +215,7 @@ std::optional<BsdfSample> BsdfView::sample(vec3 from, float u_lobe, vec2 u,
 std::optional<BsdfSample> BsdfView::sample_direction(const Lobe& lobe, vec3 from, float u_event,
                                                      vec2 u, TransportMode mode) const {
   std::optional<BsdfSample> sample;
-  if (one_way_ && mode == TransportMode::Importance) {
+  if (kind_ == VertexKind::OneWay && mode == TransportMode::Importance) {
     return sample;
   }
   const auto to = sample_lobe(lobe, ng_, from, u_event, u, mode);
@@ -256,7 +257,9 @@ std::optional<BsdfSample> BsdfView::sample_event(const Lobe& lobe, float chosen,
   // The two walks measure their discrete event against different solid angles: beside the choice of
   // the lobe, the ratio of the densities is the jacobian.
   const float own = chosen * event->probability;
-  float other = event->one_way || one_way_ ? 0.0f : pmf(lobe, grazing(to_ng)) * event->reverse;
+  float other = event->one_way || kind_ == VertexKind::OneWay
+                    ? 0.0f
+                    : pmf(lobe, grazing(to_ng)) * event->reverse;
   Rgb color = event->color * covers_transmittance(lobe, ng_, wo);
   if (reshading_ && !alike(*reshading_, from, to)) {
     reshade_event(lobe, from, u, mode, to, *event, color, other);

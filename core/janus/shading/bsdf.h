@@ -33,6 +33,10 @@ struct BsdfSample {
   float eta_scale = 1.0f;
   bool transmitted = false;  // to the other side of Ng
   Rgb diffuse = Rgb(0.0f);   // what diffuse lobes add to `weight`; see BsdfEval::diffuse
+  // The walk goes below the surface by this Subsurface lobe, in `direction`, and comes up elsewhere
+  // (path/subsurface.h); -1: it does not. `weight` is then that of the end where it goes below, and
+  // pdf_solid only its own density of doing so.
+  int below = -1;
 };
 
 // Value and densities for a pair of directions, of the lobes that are not deltas.
@@ -44,6 +48,19 @@ struct BsdfEval {
   float pdf_radiance = 0.0f, pdf_importance = 0.0f;
   // What diffuse lobes add to f, translucent ones among them.
   Rgb diffuse = Rgb(0.0f);
+};
+
+// What a vertex is to the walks.
+enum class VertexKind : uint8_t {
+  Surface,
+  // Light subpaths end there, so that their density, here and behind, is nought. Light goes through
+  // a fibre in one event, at the point which the camera side sees: from the light's side that point
+  // is behind the fibre, where no ray can find it.
+  OneWay,
+  // Where a walk has come up from below: a light subpath at the entry, a camera subpath at the exit
+  // (shading/subsurface.h). The direction on the side that it comes from is any on the upper side.
+  SubsurfaceEntry,
+  SubsurfaceExit,
 };
 
 class Bsdf;
@@ -66,10 +83,10 @@ bool may_transmit(const Reshading& reshading);
 class BsdfView {
  public:
   BsdfView(std::span<const Lobe> lobes, vec3 ng, vec3 ns, const Reshading* reshading = nullptr,
-           bool one_way = false)
-      : lobes_(lobes), ng_(ng), ns_(ns), reshading_(reshading), one_way_(one_way) {}
+           VertexKind kind = VertexKind::Surface)
+      : lobes_(lobes), ng_(ng), ns_(ns), reshading_(reshading), kind_(kind) {}
 
-  // True if some lobe is not a delta: the vertex can be joined to another one.
+  // True if some lobe scatters in more than one direction: the vertex can be joined to another one.
   bool connectible() const;
 
   // True if some lobe scatters to the other side of Ng.
@@ -97,9 +114,17 @@ class BsdfView {
 
   std::span<const Lobe> lobes() const { return lobes_; }
   vec3 ng() const { return ng_; }
-  bool one_way() const { return one_way_; }
+  VertexKind kind() const { return kind_; }
 
  private:
+  // Of ends of a walk below the surface, and how it begins: in subsurface_ends.cpp.
+  BsdfEval evaluate_end(const Directions& d, TransportMode mode) const;
+  BsdfEval evaluate_entry(const Lobe& lobe, const Directions& d, TransportMode mode) const;
+  BsdfEval evaluate_exit(const Directions& d) const;
+  std::optional<BsdfSample> sample_end(vec3 from, vec2 u, TransportMode mode) const;
+  std::optional<BsdfSample> sample_below(const Lobe& lobe, float chosen, vec3 from, vec2 u,
+                                         TransportMode mode) const;
+
   std::optional<BsdfSample> sample_direction(const Lobe& lobe, vec3 from, float u_event, vec2 u,
                                              TransportMode mode) const;
   std::optional<BsdfSample> sample_event(const Lobe& lobe, float chosen, vec3 from, float u,
@@ -113,7 +138,7 @@ class BsdfView {
   std::span<const Lobe> lobes_;
   vec3 ng_, ns_;
   const Reshading* reshading_;
-  bool one_way_;
+  VertexKind kind_;
 };
 
 inline constexpr int kMaxLobes = 12;
@@ -125,7 +150,7 @@ class Bsdf {
   Bsdf(const Bsdf& other) { *this = other; }
   Bsdf& operator=(const Bsdf& other) {
     count_ = other.count_;
-    one_way_ = other.one_way_;
+    kind_ = other.kind_;
     std::copy_n(other.lobes_, count_, lobes_);
     return *this;
   }
@@ -147,13 +172,11 @@ class Bsdf {
     }
     return added;
   }
-  void clear() { count_ = 0, one_way_ = false; }
+  void clear() { count_ = 0, kind_ = VertexKind::Surface; }
 
-  // Of a surface where light subpaths end, so that their density, here and behind, is nought. Light
-  // goes through a fibre in one event, at the point which the camera side sees: from the light's
-  // side that point is behind the fibre, where no ray can find it.
-  bool one_way() const { return one_way_; }
-  void set_one_way(bool one_way) { one_way_ = one_way; }
+  VertexKind kind() const { return kind_; }
+  bool one_way() const { return kind_ == VertexKind::OneWay; }
+  void set_kind(VertexKind kind) { kind_ = kind; }
 
   // An estimate of the share of light that is scattered.
   float albedo() const;
@@ -162,15 +185,16 @@ class Bsdf {
   void finish();
 
   BsdfView view(vec3 ng, vec3 ns, const Reshading* reshading = nullptr) const {
-    return {lobes(), ng, ns, reshading, one_way_};
+    return {lobes(), ng, ns, reshading, kind_};
   }
   BsdfView view(vec3 n) const { return view(n, n); }
   std::span<const Lobe> lobes() const { return {lobes_, static_cast<size_t>(count_)}; }
+  std::span<Lobe> lobes() { return {lobes_, static_cast<size_t>(count_)}; }
   int size() const { return count_; }
 
  private:
   int count_ = 0;
-  bool one_way_ = false;
+  VertexKind kind_ = VertexKind::Surface;
   Lobe lobes_[kMaxLobes];  // not initialised beyond the count
 };
 

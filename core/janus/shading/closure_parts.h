@@ -5,6 +5,7 @@
 
 #include "janus/shading/closures.h"
 #include "janus/shading/node_reader.h"
+#include "janus/shading/subsurface.h"
 
 namespace janus {
 
@@ -25,6 +26,11 @@ inline float usable_index(float ior) { return std::max(ior, kCutoff); }
 inline Lobe rough_diffuse(Rgb weight, Rgb albedo, float roughness) {
   return roughness < kCutoff ? diffuse_lobe(weight) : oren_nayar_lobe(weight, albedo, roughness);
 }
+
+// Adds a Subsurface lobe below the lobe `layer`; channels whose radius is next to nothing scatter
+// as a diffuse one. `method`: number of the setting whose items are names of kSubsurfaceMethods.
+void add_subsurface(const ClosureArguments& a, int method, Rgb weight, Rgb albedo, Rgb radius,
+                    float anisotropy, float ior, float alpha, ShadingResult& out, int layer = -1);
 
 // Facets whose widths are `alpha` times `x` and `y` along and across the tangent, the input
 // `tangent` turned about the normal by the input `turns`.

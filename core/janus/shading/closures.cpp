@@ -41,6 +41,22 @@ FacetWidths stretched_widths(const ClosureArguments& a, float alpha, int anisotr
   return turned_widths(a, alpha, 1.0f / aspect, aspect, tangent, turns);
 }
 
+void add_subsurface(const ClosureArguments& a, int method, Rgb weight, Rgb albedo, Rgb radius,
+                    float anisotropy, float ior, float alpha, ShadingResult& out, int layer) {
+  Rgb flat(0.0f);
+  for (int c = 0; c < 3; ++c) {
+    if (radius[c] < kLeastSubsurfaceRadius) {
+      flat[c] = weight[c];
+      weight[c] = 0.0f;
+    }
+  }
+  add_lobe(a, diffuse_lobe(flat), out, layer);
+  add_lobe(a,
+           subsurface_lobe(static_cast<SubsurfaceMethod>(a.setting(method)), weight, albedo, radius,
+                           anisotropy, ior, alpha),
+           out, layer);
+}
+
 Lobe of_distribution(const ClosureArguments& a, const Lobe& lobe) {
   return a.beckmann() ? with_beckmann(lobe) : lobe;
 }
@@ -229,6 +245,30 @@ void add(const ClosureArguments& a, ShadingResult& out) {
 }
 }  // namespace toon
 
+namespace subsurface {
+enum Input { Color, Scale, Radius, Ior, Roughness, Anisotropy };
+constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 0.8f},
+                                  {"Scale", Float, 0.05f},
+                                  {"Radius", Vector, vec3(1.0f, 0.2f, 0.1f)},
+                                  {"IOR", Float, 1.4f},
+                                  {"Roughness", Float, 1.0f},
+                                  {"Anisotropy", Float, 0.0f},
+                                  {"Normal", Vector, Implicit::Normal}};
+
+void add(const ClosureArguments& a, ShadingResult& out) {
+  const Rgb color = a.positive_color(Color);
+  add_subsurface(a, 0, a.share() * color, color,
+                 glm::max(a.number(Scale) * a.vector(Radius), Rgb(0.0f)), a.number(Anisotropy),
+                 a.number(Ior), a.fraction(Roughness), out);
+}
+
+void check(const NodeReader& node) {
+  if (node.property("falloff", "") == "BURLEY") {
+    node.warn("the method BURLEY is not supported; a random walk is used");
+  }
+}
+}  // namespace subsurface
+
 }  // namespace
 
 const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
@@ -241,12 +281,14 @@ const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
     kHoldoutClosure{&holdout::add, {.holds_out = true}},
     kEmissionClosure{&emission::add, {.emits = true, .emission = {1, 0.0f}}},
     kMetallicClosure{&metallic::add, {.lobes = 1, .anisotropy = {metallic::Anisotropy, 0.0f}}},
-    kSheenClosure{&sheen::add, {.lobes = 1}}, kToonClosure{&toon::add, {.lobes = 1}};
+    kSheenClosure{&sheen::add, {.lobes = 1}}, kToonClosure{&toon::add, {.lobes = 1}},
+    kSubsurfaceClosure{&subsurface::add, {.lobes = 2}, {}, &subsurface::check};
 
 const std::span<const SocketDecl> kDiffuseInputs(diffuse::kInputs), kGlossyInputs(glossy::kInputs),
     kGlassInputs(glass::kInputs), kRefractionInputs(refraction::kInputs),
     kTranslucentInputs(translucent::kInputs), kTransparentInputs(transparent::kInputs),
     kEmissionInputs(emission::kInputs), kMetallicInputs(metallic::kInputs),
-    kSheenInputs(sheen::kInputs), kToonInputs(toon::kInputs);
+    kSheenInputs(sheen::kInputs), kToonInputs(toon::kInputs),
+    kSubsurfaceInputs(subsurface::kInputs);
 
 }  // namespace janus

@@ -81,11 +81,13 @@ class ClosureArguments {
 
 extern const ClosureDecl kDiffuseClosure, kGlossyClosure, kGlassClosure, kRefractionClosure,
     kTranslucentClosure, kTransparentClosure, kHoldoutClosure, kEmissionClosure, kPrincipledClosure,
-    kMetallicClosure, kSheenClosure, kToonClosure, kHairClosure, kPrincipledHairClosure;
+    kMetallicClosure, kSheenClosure, kToonClosure, kSubsurfaceClosure, kHairClosure,
+    kPrincipledHairClosure;
 
 // The inputs of the closures, in the order in which their functions read them.
 extern const std::span<const SocketDecl> kDiffuseInputs, kGlossyInputs, kGlassInputs,
     kRefractionInputs, kTranslucentInputs, kTransparentInputs, kEmissionInputs, kPrincipledInputs,
-    kMetallicInputs, kSheenInputs, kToonInputs, kHairInputs, kPrincipledHairInputs;
+    kMetallicInputs, kSheenInputs, kToonInputs, kSubsurfaceInputs, kHairInputs,
+    kPrincipledHairInputs;
 
 }  // namespace janus

@@ -11,20 +11,6 @@ namespace janus {
 
 namespace {
 
-// What Cycles leaves of light from `wi` on a diffuse lobe of normal `n` where the surface's own is
-// `ns`: nothing where it is above one of them and below the other; and less towards the horizon
-// where `n` is tilted, so that bumps do not end in the dark at once (Conty et al. 2019). Of light
-// through a translucent lobe it does so only where it looked for the light: that is left out here.
-float lit_bumps(vec3 n, vec3 ns, vec3 wi) {
-  const float cos_i = dot(ns, wi), cos_n = dot(ns, n);
-  if (cos_i * cos_n * dot(n, wi) < 0.0f || std::abs(cos_i) < 1e-6f) {
-    return 0.0f;
-  }
-  const float tan2 = 1.0f / std::max(sqr(cos_n), 1e-12f) - 1.0f;
-  const float alpha2 = std::clamp(0.125f * tan2, 0.0f, 1.0f);
-  return 1.0f / (1.0f + ggx_lambda(alpha2, std::abs(cos_i)));
-}
-
 // --- Velvet --------------------------------------------------------------------------------------
 
 // Ashikhmin et al., "A Microfacet-Based BRDF Generator" (2000), section 4, with the masking that
@@ -66,6 +52,16 @@ vec3 sample_cone(const Lobe& lobe, vec3 axis, vec2 u) {
 }
 
 }  // namespace
+
+float lit_bumps(vec3 n, vec3 ns, vec3 wi) {
+  const float cos_i = dot(ns, wi), cos_n = dot(ns, n);
+  if (cos_i * cos_n * dot(n, wi) < 0.0f || std::abs(cos_i) < 1e-6f) {
+    return 0.0f;
+  }
+  const float tan2 = 1.0f / std::max(sqr(cos_n), 1e-12f) - 1.0f;
+  const float alpha2 = std::clamp(0.125f * tan2, 0.0f, 1.0f);
+  return 1.0f / (1.0f + ggx_lambda(alpha2, std::abs(cos_i)));
+}
 
 float toon_density(const Lobe& lobe) { return 0.5f * kInvPi / cone_opening(lobe); }
 
@@ -115,6 +111,8 @@ LobeEval evaluate_diffuse(const Lobe& lobe, vec3 ng, const Directions& d) {
       out.f *= out.pdf_radiance * toon_intensity(lobe, angle);
       break;
     }
+    case LobeType::Subsurface:
+      return {};  // it scatters nothing here: see subsurface.h
     default:
       out.f *= out.pdf_radiance;
   }

@@ -14,6 +14,7 @@ enum class LobeType : uint8_t {
   Sheen,        // fine fibres on a surface. See sheen.h.
   Velvet,       // Ashikhmin's
   DiffuseToon,  // a cone around the normal
+  Subsurface,   // a random walk below the surface; comes up as Lambert. See subsurface.h.
   Translucent,  // Lambert to the other side
   // Light on a fibre, seen as a whole; all take the whole sphere. See hair.h.
   HairReflection,    // Hair BSDF, Reflection
@@ -36,10 +37,12 @@ enum class LobeType : uint8_t {
 struct Lobe {
   Rgb weight;  // colour times the closure's share in Mix and Add
   // Metal, Specular: F0; Conductor: real part of its index; Glass: tint; OrenNayar: albedo; Glossy:
-  // multiscatter tint; Chiang: absorption by radius; Coat: tint; Sheen: its share as a layer
+  // multiscatter tint; Chiang: absorption by radius; Coat: tint; Sheen: its share as a layer;
+  // Subsurface: albedo
   Rgb color;
   // Metal: the F82 term's factor; Conductor: imaginary part of its index; Specular, Coat:
-  // multiscatter tint; Glass: tint of F0
+  // multiscatter tint; Glass: tint of F0; Subsurface: radius, metres, and once a light subpath has
+  // come up there (SubsurfaceEntry), where it came from
   Rgb edge;
   // Shading normal on the front side (the side of +Ng), unit. Fibres: their direction, unit.
   vec3 normal;
@@ -47,10 +50,12 @@ struct Lobe {
   // Sheen: roughness. Toon: half angle. Fibres: `alpha`, how wide light spreads along them, Chiang:
   // as a variance.
   float alpha, alpha_y;
-  uint32_t tangent;  // of facets of two widths, packed; see pack_direction()
-  float ior;         // index of the back side relative to the front side
+  // Of facets of two widths, packed (see pack_direction()); Subsurface: its SubsurfaceMethod
+  uint32_t tangent;
+  float ior;  // index of the back side relative to the front side
   // OrenNayar, Velvet: roughness. Fibres: how wide light spreads around them. Toon: the angle over
-  // which it fades. Coat: its share as a layer. Other facets: thickness of the film on them, nm
+  // which it fades. Coat: its share as a layer. Subsurface: anisotropy. Other facets: thickness of
+  // the film on them, nm
   float sigma;
   float tilt;  // fibres: of their scales, radians. Facets: index of the film on them
   // Probability of choosing this lobe when sampling: from pmf_normal for a walk that arrives along
@@ -75,6 +80,10 @@ inline bool is_toon(LobeType type) {
 }
 inline bool is_diffuse(LobeType type) { return type <= LobeType::Translucent; }
 inline bool is_delta(const Lobe& lobe) { return has_facets(lobe.type) && lobe.alpha == 0.0f; }
+// Lobes that scatter light where it falls, in more than one direction.
+inline bool is_connectible(const Lobe& lobe) {
+  return !is_delta(lobe) && lobe.type != LobeType::Subsurface;
+}
 inline bool transmits(const Lobe& lobe) {
   return lobe.type >= LobeType::Glass || lobe.type == LobeType::Translucent || is_fiber(lobe.type);
 }

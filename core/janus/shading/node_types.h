@@ -95,7 +95,7 @@ struct ClosureTraits {
   int lobes = 0;  // at most
   // Which may make it dark, opaque or reflecting after all, or its facets as wide along as across.
   Input emission{}, alpha{}, transmission{}, anisotropy{};
-  Input parts[2]{};   // each with a lobe
+  Input parts[4]{};   // each with a lobe
   Input covers[2]{};  // the same, and they dim what glows below them
 };
 

@@ -38,7 +38,12 @@ enum Input {
   EmissionColor,
   EmissionStrength,
   FilmThickness,
-  FilmIor
+  FilmIor,
+  SubsurfaceWeight,
+  SubsurfaceRadius,
+  SubsurfaceScale,
+  SubsurfaceIor,
+  SubsurfaceAnisotropy
 };
 constexpr SocketDecl kInputs[] = {{"Base Color", Color, 0.8f},
                                   {"Metallic", Float, 0.0f},
@@ -64,8 +69,12 @@ constexpr SocketDecl kInputs[] = {{"Base Color", Color, 0.8f},
                                   {"Emission Strength", Float, 0.0f},
                                   {"Thin Film Thickness", Float, 0.0f},
                                   {"Thin Film IOR", Float, 1.33f},
-                                  {"Normal", Vector, Implicit::Normal},
                                   {"Subsurface Weight", Float, 0.0f},
+                                  {"Subsurface Radius", Vector, vec3(1.0f, 0.2f, 0.1f)},
+                                  {"Subsurface Scale", Float, 0.05f},
+                                  {"Subsurface IOR", Float, 1.4f},
+                                  {"Subsurface Anisotropy", Float, 0.0f},
+                                  {"Normal", Vector, Implicit::Normal},
                                   {"Thin Wall", Float, 0.0f}};
 
 // What covers all else; -1: nothing does.
@@ -139,11 +148,26 @@ void add(const ClosureArguments& a, ShadingResult& out) {
   if (eta != 1.0f || film(specular).exists()) {
     layer = add_lobe(a, specular, out, covers);
   }
+  const float subsurface = a.fraction(SubsurfaceWeight);
+  if (subsurface > 0.0f) {
+    const bool skin = a.setting(1) == static_cast<int>(SubsurfaceMethod::Skin);
+    add_subsurface(a, 1, subsurface * weight * clamped, clamped,
+                   glm::max(a.number(SubsurfaceScale) * a.vector(SubsurfaceRadius), Rgb(0.0f)),
+                   a.number(SubsurfaceAnisotropy), skin ? a.number(SubsurfaceIor) : eta, width, out,
+                   layer);
+    weight *= 1.0f - subsurface;
+  }
   add_lobe(a, rough_diffuse(weight * base, base, a.fraction(DiffuseRoughness)), out, layer);
 }
 
+void check(const NodeReader& node) {
+  if (node.property("subsurface_method", "") == "BURLEY" &&
+      (node.link("Subsurface Weight") || node.number("Subsurface Weight") > 0.0f)) {
+    node.warn("the subsurface method BURLEY is not supported; a random walk is used");
+  }
+}
+
 constexpr LeftOut kLeftOut[] = {
-    {"Subsurface Weight", 0.0f, "subsurface scattering is not supported yet; diffuse is used"},
     {"Thin Wall", 0.0f, "thin walls are not supported yet; a closed surface is rendered"},
 };
 }  // namespace principled
@@ -155,14 +179,18 @@ const ClosureDecl kPrincipledClosure{
     {.emits = true,
      .transparent = true,
      .transmits = true,
-     .lobes = 6,
+     .lobes = 8,
      .emission = {principled::EmissionStrength, 0.0f},
      .alpha = {principled::Alpha, 1.0f},
      .transmission = {principled::Transmission, 0.0f},
      .anisotropy = {principled::Anisotropic, 0.0f},
-     .parts = {{principled::Metallic, 0.0f}, {principled::Transmission, 0.0f}},
+     .parts = {{principled::Metallic, 0.0f},
+               {principled::Transmission, 0.0f},
+               {principled::SubsurfaceWeight, 0.0f},
+               {principled::SubsurfaceWeight, 0.0f}},
      .covers = {{principled::CoatWeight, 0.0f}, {principled::SheenWeight, 0.0f}}},
-    principled::kLeftOut};
+    principled::kLeftOut,
+    &principled::check};
 
 const std::span<const SocketDecl> kPrincipledInputs(principled::kInputs);
 

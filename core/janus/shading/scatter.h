@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "janus/shading/bsdf.h"
+#include "janus/shading/fresnel.h"
 
 namespace janus {
 
@@ -34,6 +35,13 @@ inline vec3 valid_normal(vec3 n, vec3 ng, vec3 wo) {
   const float least = std::min(0.9f * cos_g, 0.01f);  // cosine that a reflection must keep to ng
   return 2.0f * dot(n, wo) * dot(n, ng) - cos_g >= least ? n : turned_normal(n, ng, wo, least);
 }
+
+// Probability of choosing a lobe for a walk that arrives with the Schlick factor `grazing` of its
+// cosine to Ng.
+inline float pmf(const Lobe& lobe, float grazing) {
+  return lobe.pmf_normal + grazing * (lobe.pmf_grazing - lobe.pmf_normal);
+}
+inline float grazing(float w_ng) { return schlick(std::abs(w_ng)); }
 
 // For lobes that are not deltas.
 LobeEval evaluate_lobe(const Lobe& lobe, vec3 ng, const Directions& d);

@@ -45,6 +45,14 @@ const LengthCase kCases[] = {
            .add("ball", ball(0.5f, 10, true), diffuse(Rgb(0.9f)), translation({0.2f, 0, 0}))
            .light("l", area_light({1.7f, -0.3f, 0.2f}, {0, 0, -0.4f}, 0.8f, 30));
      }},
+    // Entry and exit are one vertex, whichever walk goes below.
+    {"subsurface",
+     [] {
+       return plates()
+           .add("wax", ball(0.5f, 10, true), subsurface(Rgb(0.9f, 0.8f, 0.7f)),
+                translation({0.2f, 0, 0}))
+           .light("l", area_light({1.7f, -0.3f, 0.2f}, {0, 0, -0.4f}, 0.8f, 30));
+     }},
     // Tubes and balls, seen from outside alone.
     {"round",
      [] {

@@ -110,6 +110,27 @@ const OracleScene kScenes[] = {
        ball_of(kit, "ember", {0.5f, 0.2f, 0.3f}, {{"Emission Strength", 2.0f}});
        return kit.light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.6f, 20));
      }},
+    {"subsurface",  // one vertex with two ends, which light walks pass in some of these
+     [] {
+       const auto principled = [](std::map<std::string, NodeInput> inputs) {
+         inputs.insert({{"Subsurface Weight", 0.7f}, {"Subsurface Scale", 0.5f}});
+         return single("BSDF_PRINCIPLED", std::move(inputs));
+       };
+       SceneKit kit = open_box(Rgb(0.6f, 0.5f, 0.4f));
+       const auto add = [&](const char* name, vec3 p, const NodeGraph& graph) {
+         kit.add(name, ball(0.3f, 10, true), graph, translation(p));
+       };
+       add("wax", {-0.6f, 0, -0.5f}, subsurface(Rgb(0.9f, 0.6f, 0.3f)));
+       add("skin", {0, -0.2f, -0.5f}, subsurface(Rgb(0.8f), {}, "RANDOM_WALK_SKIN"));
+       add("jelly", {0.6f, 0, -0.5f},
+           subsurface(Rgb(0.7f), {{"Anisotropy", 0.8f}, {"Roughness", 0.3f}},
+                      "RANDOM_WALK_LEGACY"));
+       add("plastic", {0.5f, 0.2f, 0.3f}, principled({{"Coat Weight", 0.5f}}));
+       add("smooth", {-0.4f, 0.3f, 0.3f}, principled({{"Roughness", 0.0f}}));
+       add("twofold", {0, 0.4f, 0},
+           combine("MIX_SHADER", subsurface(Rgb(0.8f)), subsurface(Rgb(0.2f, 0.5f, 0.8f))));
+       return kit.light("lamp", area_light({0, 0, 0.9f}, {0, 0, 0}, 0.6f, 20));
+     }},
     {"covers",  // they dim what they cover, and are in no density
      [] {
        SceneKit kit = open_box();

@@ -42,7 +42,7 @@ const vec3 kFrom[] = {normalize(vec3(0.3f, 0.2f, 1)), normalize(vec3(-1, 0.4f, 0
 
 class Fibers : public ::testing::TestWithParam<FiberCase> {
  protected:
-  Fibers() { storage_.set_one_way(true); }
+  Fibers() { storage_.set_kind(VertexKind::OneWay); }
   Bsdf storage_ = make(GetParam().lobes);
   BsdfView bsdf() const { return storage_.view(kNg); }
   Random random_{7};

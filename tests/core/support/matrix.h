@@ -119,6 +119,7 @@ inline std::vector<ClosureLevel> closure_levels() {
                               {"Coat Roughness", 0.4f},
                               {"Coat Tint", vec4(0.6f, 0.8f, 0.9f, 1)},
                               {"Sheen Weight", 0.5f}})},
+      {"subsurface", subsurface(Rgb(0.8f, 0.7f, 0.5f))},
       {"delta_and_rough",
        combine("MIX_SHADER", diffuse(Rgb(0.8f, 0.4f, 0.3f)), glass(Rgb(0.95f), 1.4f), 0.4f), true},
       {"smooth_normals", diffuse(Rgb(0.8f, 0.7f, 0.5f)), false, false, true},

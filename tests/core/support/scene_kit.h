@@ -40,6 +40,16 @@ inline NodeGraph emission(Rgb color, float strength) {
   return single("EMISSION", {{"Color", vec4(color, 1)}, {"Strength", strength}});
 }
 
+// Light through which goes about 0.1 m below the surface, by default.
+inline NodeGraph subsurface(Rgb color, std::map<std::string, NodeInput> more = {},
+                            const std::string& method = "RANDOM_WALK") {
+  NodeGraph graph = single("SUBSURFACE_SCATTERING", std::move(more));
+  graph.nodes.front().inputs.insert({{"Color", vec4(color, 1)}, {"Scale", 1.0f}});
+  graph.nodes.front().properties = {{"falloff", method}};
+  graph.surface = NodeLink{"Shader", "BSSRDF"};
+  return graph;
+}
+
 // `type` MIX_SHADER (with `factor`) or ADD_SHADER over two single-node graphs.
 inline NodeGraph combine(const std::string& type, const NodeGraph& a, const NodeGraph& b,
                          float factor = 0.5f) {
@@ -47,8 +57,10 @@ inline NodeGraph combine(const std::string& type, const NodeGraph& a, const Node
   graph.nodes = {a.nodes.front(), b.nodes.front()};
   graph.nodes[0].name = "A";
   graph.nodes[1].name = "B";
-  graph.nodes.push_back(
-      node("Top", type, {{"Fac", factor}, {"Shader", link("A")}, {"Shader_001", link("B")}}));
+  graph.nodes.push_back(node("Top", type,
+                             {{"Fac", factor},
+                              {"Shader", link("A", a.surface->output)},
+                              {"Shader_001", link("B", b.surface->output)}}));
   graph.surface = NodeLink{"Top", "Shader"};
   return graph;
 }

@@ -8,7 +8,7 @@ namespace janus {
 
 namespace {
 
-constexpr std::string_view kBsdf[] = {"BSDF"}, kEmission[] = {"Emission"},
+constexpr std::string_view kBsdf[] = {"BSDF"}, kBssrdf[] = {"BSSRDF"}, kEmission[] = {"Emission"},
                            kBackground[] = {"Background"}, kShader[] = {"Shader"},
                            kHoldout[] = {"Holdout"};
 constexpr SocketDecl kMix[] = {{"Fac", SocketType::Float, 0.5f},
@@ -23,9 +23,14 @@ constexpr SocketDecl kAov[] = {{"Color", SocketType::Color}, {"Value", SocketTyp
 // that the places are the same.
 constexpr std::string_view kDistributions[] = {"MULTI_GGX", "GGX", "BECKMANN"},
                            kTwoGgx[] = {"MULTI_GGX", "GGX"}, kAshikhmin[] = {"ASHIKHMIN_SHIRLEY"};
+// Items in the order of SubsurfaceMethod. Christensen-Burley is named where it matters.
+constexpr std::string_view kMethods[] = {"RANDOM_WALK", "RANDOM_WALK_LEGACY", "RANDOM_WALK_SKIN"},
+                           kBurley[] = {"BURLEY"};
 constexpr EnumDecl kDistribution[] = {{"distribution", kDistributions}},
                    kGlossy[] = {{"distribution", kDistributions, kAshikhmin}},
-                   kPrincipled[] = {{"distribution", kTwoGgx}};
+                   kPrincipled[] = {{"distribution", kTwoGgx},
+                                    {"subsurface_method", kMethods, kBurley}},
+                   kSubsurface[] = {{"falloff", kMethods, kBurley}};
 
 constexpr std::string_view kFresnelTypes[] = {"F82", "PHYSICAL_CONDUCTOR"},
                            kSheens[] = {"MICROFIBER", "ASHIKHMIN"},
@@ -61,6 +66,8 @@ std::span<const NodeDecl> closure_nodes() {
       {"BSDF_METALLIC", kMetallicInputs, kBsdf, nullptr, &kMetallicClosure, MixOp::None, kMetallic},
       {"BSDF_SHEEN", kSheenInputs, kBsdf, nullptr, &kSheenClosure, MixOp::None, kSheen},
       {"BSDF_TOON", kToonInputs, kBsdf, nullptr, &kToonClosure, MixOp::None, kToon},
+      {"SUBSURFACE_SCATTERING", kSubsurfaceInputs, kBssrdf, nullptr, &kSubsurfaceClosure,
+       MixOp::None, kSubsurface},
       {"BSDF_HAIR", kHairInputs, kBsdf, nullptr, &kHairClosure, MixOp::None, kComponent},
       {"BSDF_HAIR_PRINCIPLED", kPrincipledHairInputs, kBsdf, nullptr, &kPrincipledHairClosure,
        MixOp::None, kPrincipledHair},

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "janus/integrator/camera_trace.h"
+#include "janus/render/shadows_ahead.h"
+
+namespace janus {
+
+// A walk of the path tracer between two vertices.
+struct CameraWalk {
+  Ray ray;               // from the last vertex
+  Receiver previous;     // that vertex
+  vec3 origin;           // where the present segment starts: there, or at the last crossing
+  float t_begin = 0.0f;  // its distance along the ray
+  float pdf_solid = 0.0f;
+  bool delta = true;  // no next event estimation has looked for the light ahead
+  int edges = 1, crossings = 0;
+  Rgb beta = Rgb(1.0f);
+  std::array<int, 3> bounces{};  // diffuse, glossy, transmission
+  RayType type = RayType::Camera;
+  // Of the scattering at the last vertex: the shares of diffuse lobes and of the others, and
+  // whether it was to the other side.
+  Rgb diffuse = Rgb(0.0f), rest = Rgb(1.0f);
+  bool transmitted = false;
+  // The camera has seen nothing so far but transparent surfaces and clear glass.
+  bool clear = true;
+  // Where it looks for lights with the rules of shadow rays: what lets them through so far.
+  const ShadowsAhead* shadows = nullptr;
+  CameraTrace* trace = nullptr;  // without light path expressions: none
+  std::span<Rgb> layers{};       // of the pixel
+  bool caught = false;           // the camera has seen a shadow catcher
+};
+
+}  // namespace janus
