@@ -40,6 +40,9 @@ OLD_PROPERTIES = {
     "TEX_VORONOI": ((5, 0, 0), {"old_points": True}),
     "TEX_MAGIC": ((5, 2, 0), {"wraps_unscaled": True}),
 }
+# Values of properties that Blender 5.2 has given to something new.
+SUBSURFACE_METHODS = {"RANDOM_WALK": "RANDOM_WALK_LEGACY"}
+OLD_VALUES = {"falloff": SUBSURFACE_METHODS, "subsurface_method": SUBSURFACE_METHODS}
 # Of AOV Output, by the type of the AOV.
 AOV_INPUTS = {"COLOR": "Color", "VALUE": "Value"}
 RENAMED = {"DIFFUSE_BSDF": "BSDF_DIFFUSE"}  # in Blender 4.4, and only there
@@ -250,6 +253,13 @@ def image_key(image) -> str:
     return f"image:{image.name_full}"
 
 
+def _value(node, key: str):
+    value = plain(getattr(node, key))
+    if key in OLD_VALUES and bpy.app.version < (5, 2, 0):
+        return OLD_VALUES[key].get(value, value)
+    return value
+
+
 def _properties(node) -> dict:
     common = bpy.types.Node.bl_rna.properties
     until, old = OLD_PROPERTIES.get(node.type, ((0,), {}))
@@ -257,7 +267,7 @@ def _properties(node) -> dict:
     return (
         ({"image": image_key(image)} if isinstance(image, bpy.types.Image) else {})
         | {
-            p.identifier: plain(getattr(node, p.identifier))
+            p.identifier: _value(node, p.identifier)
             for p in node.bl_rna.properties
             if p.type in PLAIN_PROPERTIES and p.identifier not in common
         }

@@ -29,7 +29,7 @@ RED, BLUE, GREY, WHITE = (0.9, 0.35, 0.2), (0.25, 0.45, 0.9), (0.6, 0.6, 0.6), (
 VIVID, BRIGHT, NEGATIVE = (1.0, 0.0, 0.02), (1.6, 1.2, 0.7), (0.7, -0.5, 0.3)
 CELLS = {}
 GGX = ("GGX", "MULTI_GGX")
-SETTINGS = ("distribution", "component", "fresnel_type")
+SETTINGS = ("distribution", "component", "fresnel_type", "falloff", "subsurface_method")
 
 
 def shader(kind: str, **inputs):
@@ -254,6 +254,7 @@ def mixed_cells() -> None:
 
 def add_cells() -> None:
     from .closure_cells_layers import add_layers
+    from .closure_cells_subsurface import add_subsurface
 
     if not CELLS:
         for part in (diffuse_cells, glossy_cells, glass_cells, refraction_cells, plain_cells):
@@ -261,3 +262,4 @@ def add_cells() -> None:
         principled_cells()
         mixed_cells()
         add_layers()
+        add_subsurface()

@@ -335,8 +335,8 @@ class PathTracer final : public PassIntegrator {
     }
     hit = *end;
     walk.beta *= sample.weight * below.weight();
-    wo = dot(below.arrival(), hit.ng) < 0.0f ? -hit.ng : hit.ng;
-    scene.shade(hit, below.arrival(), shading);
+    wo = below.arrival();  // on the upper side
+    scene.shade(hit, wo, shading);
     shading.bsdf.set_kind(VertexKind::SubsurfaceExit);
     return true;
   }

@@ -75,7 +75,7 @@ bool come_up(const Scene& scene, const Mis& mis, const BsdfSample& sample, Trans
     bsdf.set_kind(VertexKind::SubsurfaceEntry);
   }
   v.reshading.program = nullptr;
-  v.back = dot(arrival, v.hit.ng) < 0.0f ? -v.hit.ng : v.hit.ng;
+  v.back = arrival;  // on the upper side
   return is_finite(v.beta) && !is_black(v.beta);
 }
 

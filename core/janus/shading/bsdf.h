@@ -58,7 +58,8 @@ enum class VertexKind : uint8_t {
   // is behind the fibre, where no ray can find it.
   OneWay,
   // Where a walk has come up from below: a light subpath at the entry, a camera subpath at the exit
-  // (shading/subsurface.h). The direction on the side that it comes from is any on the upper side.
+  // (shading/subsurface.h). What is said to be the direction on the side that it comes from is
+  // that in which it arrived, on the upper side.
   SubsurfaceEntry,
   SubsurfaceExit,
 };

@@ -14,25 +14,24 @@ namespace janus {
 
 namespace {
 
-// Light leaves, or falls in, at the exit: Lambert around the normals of the Subsurface lobes.
+// Light falls in at the exit, Lambert around the normal of the Subsurface lobes, as it is seen from
+// `arrival`, the last direction of a camera walk from below.
 struct Exit {
-  vec3 n;  // on the upper side
+  vec3 n;  // on the upper side, where `arrival` points
   bool bumped = false;
 
-  Exit(std::span<const Lobe> lobes, vec3 ns, float upper_ng) : n(ns) {
+  Exit(std::span<const Lobe> lobes, vec3 ng, vec3 ns, vec3 arrival, float arrival_ng)
+      : n(arrival_ng < 0.0f ? -ns : ns) {
     vec3 sum(0.0f);
     for (const Lobe& lobe : lobes) {
-      if (lobe.type == LobeType::Subsurface && lobe.bumped) {
-        sum += average(lobe.weight) * lobe.normal;
-        bumped = true;
-      } else if (lobe.type == LobeType::Subsurface) {
-        sum += average(lobe.weight) * ns;
+      if (lobe.type == LobeType::Subsurface) {
+        sum += average(lobe.weight) * seen_normal(lobe, ng, arrival, arrival_ng);
+        bumped |= lobe.bumped;
       }
     }
     if (const float length = glm::length(sum); bumped && length > 0.0f) {
       n = sum / length;
     }
-    n = upper_ng < 0.0f ? -n : n;
   }
   // Cosine of light from `wi`, and what bumps leave of it.
   float cosine(vec3 wi) const { return std::max(dot(n, wi), 0.0f); }
@@ -65,10 +64,10 @@ BsdfEval BsdfView::evaluate_entry(const Lobe& lobe, const Directions& d, Transpo
   return e;
 }
 
-// From the camera's side alone: `wo` is not known.
+// From the camera's side alone; wo is where the walk came from, mirrored to the upper side.
 BsdfEval BsdfView::evaluate_exit(const Directions& d) const {
   BsdfEval e;
-  const Exit exit(lobes_, ns_, d.wo_ng);
+  const Exit exit(lobes_, ng_, ns_, d.wo, d.wo_ng);
   const float cos = exit.cosine(d.wi);
   if (!d.same_side() || cos == 0.0f) {
     return e;
@@ -86,7 +85,9 @@ std::optional<BsdfSample> BsdfView::sample_end(vec3 from, vec2 u, TransportMode 
     return std::nullopt;
   }
   const float from_ng = dot(from, ng_);
-  const vec3 axis = radiance ? Exit(lobes_, ns_, from_ng).n : from_ng < 0.0f ? -ng_ : ng_;
+  const vec3 axis = radiance         ? Exit(lobes_, ng_, ns_, from, from_ng).n
+                    : from_ng < 0.0f ? -ng_
+                                     : ng_;
   const vec3 to = Frame(axis).to_world(square_to_cosine_hemisphere(u));
   const BsdfEval e = evaluate(radiance ? from : to, radiance ? to : from, mode);
   const float pdf = radiance ? e.pdf_radiance : e.pdf_importance;
@@ -108,11 +109,12 @@ std::optional<BsdfSample> BsdfView::sample_below(const Lobe& lobe, float chosen,
   const float from_ng = dot(from, ng_);
   const vec3 down = from_ng < 0.0f ? ng_ : -ng_;
   if (mode == TransportMode::Importance) {
-    const Exit exit(lobes_, ns_, from_ng);
+    const vec3 direction = Frame(down).to_world(square_to_cosine_hemisphere(u));
+    const Exit exit(lobes_, ng_, ns_, -direction, -dot(direction, ng_));
     const float cos = exit.cosine(from);
     if (passage && cos > 0.0f) {
       sample.emplace();
-      sample->direction = Frame(down).to_world(square_to_cosine_hemisphere(u));
+      sample->direction = direction;
       sample->weight = Rgb(cos * exit.lit(ns_, from) / std::abs(from_ng) / chosen);
       sample->pdf_solid = chosen;  // that of the direction belongs to the walk
       sample->pdf_reverse = cos * kInvPi;
