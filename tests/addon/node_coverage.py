@@ -20,7 +20,6 @@ REFUSED = {
     "POINT_INFO": "point clouds",
     "PRINCIPLED_VOLUME": "volume; named for the material",
     "SCRIPT": "OSL",
-    "SUBSURFACE_SCATTERING": "subsurface scattering",
     "TEX_IES": "beams of IES files",
     "TEX_POINTDENSITY": "volume",
     "VECTOR_DISPLACEMENT": "displacement; named for the material",
@@ -43,9 +42,6 @@ FLATTENED = {
 RENAMED = {"DIFFUSE_BSDF": "BSDF_DIFFUSE"}
 # Sockets that matter only together with an input that is left out and named.
 IDLE_SOCKETS = {
-    "BSDF_PRINCIPLED": {
-        *("Subsurface Radius", "Subsurface Scale", "Subsurface IOR", "Subsurface Anisotropy"),
-    },
     # Of Huang's model, which is named.
     "BSDF_HAIR_PRINCIPLED": {"Aspect Ratio", "R lobe", "TT lobe", "TRT lobe"},
     # Of geometry nodes, in whose trees the same node stands.
@@ -60,9 +56,6 @@ CORE_TYPES = {
 IDLE_ITEMS = {
     ("BSDF_HAIR_PRINCIPLED", "model"): {"HUANG"},
     ("MIX", "data_type"): {"ROTATION"},
-    ("BSDF_PRINCIPLED", "subsurface_method"): {
-        *("BURLEY", "RANDOM_WALK", "RANDOM_WALK_SKIN", "RANDOM_WALK_LEGACY"),
-    },
 }
 FILMS = "films before 5.0 have the colours of 5.0"
 REMARKS = {

@@ -17,8 +17,15 @@ import record_nodes
 import recordings
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+from tests.images import closure_cells  # noqa: E402
+
 DOCUMENT = ROOT / "core" / "NODES.md"
 DIFFERENCES = ROOT / "tests" / "images" / "node_differences.json"
+
+
+# By what has no closure of its own: what is used.
+INSTEAD = {"BURLEY": "a random walk", "ASHIKHMIN_SHIRLEY": "GGX on rough surfaces"}
 
 
 class Versions:
@@ -85,9 +92,9 @@ def document() -> str:
         )
         rows.append("| " + " | ".join(cells) + " |")
     total = ", ".join(f"{number} {status}" for status, number in counts.items())
-    return TEXT.format(first=versions.all[0], last=versions.all[-1], total=total) + "\n".join(
-        [*rows, ""]
-    )
+    closure_cells.add_cells()
+    said = {"first": versions.all[0], "last": versions.all[-1], "total": total}
+    return TEXT.format(**said, cells=len(closure_cells.CELLS)) + "\n".join([*rows, ""])
 
 
 TEXT = """\
@@ -103,8 +110,8 @@ What Janus makes of the shader nodes of Blender {first} to {last}: {total}.
 of the range of values (`tests/images/test_nodes.py`; the edges of steps are left out). Both engines
 throw their samples within a hundredth of a pixel, not at the same places: that alone is 1e-3 on a
 steep slope. From 5.1 on Cycles rounds its normals, which bumps and normal maps show; in pictures
-it is the tables of colour spaces. Closures are compared over a grid of their settings, 875 cells,
-each to 1 % of its mean (`tests/images/test_closures.py`).
+it is the tables of colour spaces. Closures are compared over a grid of their settings, {cells}
+cells, each to 1 % of its mean (`tests/images/test_closures.py`).
 
 Written by `tests/addon/node_document.py --write`; a test keeps it up to date.
 
@@ -125,7 +132,7 @@ def _status(kind: str, core: dict | None) -> tuple[str, list[str]]:
     left_out = [socket["identifier"] for socket in core["inputs"] if socket["left_out"]]
     named = [item for _, items in core["settings"].values() for item in items]
     notes = [f"without {', '.join(left_out)}"] if left_out else []
-    notes += [f"GGX for {', '.join(named)} on rough surfaces"] if named else []
+    notes += [f"{INSTEAD[item]} for {item}" for item in named]
     return "partly" if notes or remarks else "exact", notes + remarks
 
 

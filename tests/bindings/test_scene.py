@@ -338,7 +338,7 @@ def test_node_types_are_listed():
     ior = {"identifier": "IOR", "type": "FLOAT", "default": (1.5, 1.5, 1.5), "left_out": False}
     assert inputs["IOR"] == ior
     principled = {i["identifier"]: i for i in types["BSDF_PRINCIPLED"]["inputs"]}
-    assert principled["Subsurface Weight"]["left_out"] is True
+    assert principled["Thin Wall"]["left_out"] is True
     assert types["BSDF_GLASS"]["outputs"] == ["BSDF"]
     assert types["CLAMP"]["settings"] == {"clamp_type": (["MINMAX", "RANGE"], [])}
 

@@ -41,6 +41,7 @@ def principled_cells() -> None:
         Subsurface_Weight=(0.3, 1.0),
     )
     each("Skin", kind, {**fixed, "subsurface_method": SKIN}, Subsurface_IOR=(1.1, 2.0))
+    each("Skin", kind, fixed, Transmission_Weight=(0.3,))
     for walk in WALKS:
         each(
             *(f"Skin {walk}", kind, {**fixed, "subsurface_method": walk}),
@@ -52,7 +53,6 @@ def principled_cells() -> None:
             Coat_Weight=(1.0,),
             Sheen_Weight=(1.0,),
             Metallic=(0.5,),
-            Transmission_Weight=(0.5,),
             Alpha=(0.6,),
             Normal=NORMALS,
         )

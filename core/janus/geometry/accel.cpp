@@ -13,7 +13,6 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
-#include <set>
 #include <utility>
 
 #include "janus/geometry/mesh.h"
@@ -204,30 +203,6 @@ struct View {
   RTCScene all = nullptr;
   RTCScene opaque = nullptr, transparent = nullptr;  // by Instance::opaque; null if all are opaque
 };
-
-// By ray type: the first type that meets the same instances; kRayTypes: it meets all of them.
-std::array<int, kRayTypes> first_alike(const std::vector<Instance>& instances) {
-  std::set<RayMask> masks;  // that there are: few, however many instances
-  for (const Instance& instance : instances) {
-    masks.insert(instance.visibility);
-  }
-  const auto sees = [](RayMask mask, int type) {
-    return contains(mask, static_cast<RayType>(type));
-  };
-  std::array<int, kRayTypes> first;
-  for (int type = 0; type < kRayTypes; ++type) {
-    first[type] = type;
-    for (int other = 0; other < type && first[type] == type; ++other) {
-      if (std::ranges::all_of(masks, [&](RayMask m) { return sees(m, type) == sees(m, other); })) {
-        first[type] = first[other];
-      }
-    }
-    if (std::ranges::all_of(masks, [&](RayMask m) { return sees(m, type); })) {
-      first[type] = kRayTypes;
-    }
-  }
-  return first;
-}
 
 }  // namespace
 

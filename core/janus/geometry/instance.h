@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -47,5 +48,8 @@ struct Instance {
     return materials[slot < materials.size() ? slot : materials.size() - 1];
   }
 };
+
+// By ray type: the first type that meets the same instances; kRayTypes: it meets all of them.
+std::array<int, kRayTypes> first_alike(const std::vector<Instance>& instances);
 
 }  // namespace janus

@@ -33,4 +33,23 @@ struct CameraWalk {
   bool caught = false;           // the camera has seen a shadow catcher
 };
 
+// By channel.
+inline Rgb share(Rgb part, Rgb whole) {
+  Rgb result(0.0f);
+  for (int c = 0; c < 3; ++c) {
+    result[c] = part[c] > 0.0f ? part[c] / whole[c] : 0.0f;
+  }
+  return result;
+}
+
+// Lobes that reflect into one direction share it.
+inline RayType label(const BsdfSample& sample, Sampler& sampler) {
+  if (sample.transmitted) {
+    return RayType::Transmission;
+  }
+  const float diffuse =
+      is_black(sample.diffuse) ? 0.0f : average(sample.diffuse) / average(sample.weight);
+  return diffuse > 0.0f && sampler.next_1d() < diffuse ? RayType::Diffuse : RayType::Glossy;
+}
+
 }  // namespace janus

@@ -25,6 +25,7 @@ struct LengthCase {
   std::string name;
   SceneKit (*make)();
   bool hittable = true;
+  int more = 1;  // times as many samples
 };
 
 const LengthCase kCases[] = {
@@ -49,10 +50,11 @@ const LengthCase kCases[] = {
     {"subsurface",
      [] {
        return plates()
-           .add("wax", ball(0.5f, 10, true), subsurface(Rgb(0.9f, 0.8f, 0.7f)),
+           .add("wax", ball(0.5f, 10, true), subsurface(Rgb(0.8f, 0.7f, 0.6f)),
                 translation({0.2f, 0, 0}))
            .light("l", area_light({1.7f, -0.3f, 0.2f}, {0, 0, -0.4f}, 0.8f, 30));
-     }},
+     },
+     true, 3},
     // Tubes and balls, seen from outside alone.
     {"round",
      [] {
@@ -87,7 +89,7 @@ TEST_P(SingleTechniques, AgreeForEachPathLength) {
   for (int edges = 2; edges <= longest; ++edges) {
     std::vector<Mean> reference;
     for (int s = 1; s <= edges; ++s) {
-      RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(48));
+      auto settings = small_picture(IntegratorType::Bdpt, samples(48 * GetParam().more));
       settings.strategies = Technique{s, edges + 1 - s};
       const auto found = quarters(scene, settings);
       if (s == 1) {

@@ -55,14 +55,19 @@ TEST(Compiler, Principled) {
 }
 
 TEST(Compiler, PrincipledNamesWhatIsLeftOut) {
-  const std::pair<const char*, const char*> limits[] = {{"Subsurface Weight", "subsurface"},
-                                                        {"Thin Wall", "thin wall"}};
-  for (const auto& [socket, message] : limits) {
-    EXPECT_TRUE(warned(compiled(single("BSDF_PRINCIPLED", {{socket, 0.5f}})), "Shader", message));
-    EXPECT_TRUE(
-        warned(compiled(single("BSDF_PRINCIPLED", {{socket, link("Noise")}})), "Shader", message));
+  const auto message = [](std::map<std::string, NodeInput> inputs, const char* part,
+                          const char* method = "RANDOM_WALK") {
+    NodeGraph graph = single("BSDF_PRINCIPLED", std::move(inputs));
+    graph.nodes.front().properties = {{"subsurface_method", std::string(method)}};
+    return warned(compiled(graph), "Shader", part);
+  };
+  for (const NodeInput& input : {NodeInput(0.5f), link("Noise")}) {
+    EXPECT_TRUE(message({{"Thin Wall", input}}, "thin wall"));
+    EXPECT_TRUE(message({{"Subsurface Weight", input}}, "BURLEY", "BURLEY"));
   }
-  EXPECT_TRUE(warned(compiled(single("SUBSURFACE_SCATTERING", {})), "Shader", "SUBSURFACE"));
+  EXPECT_FALSE(message({{"Subsurface Weight", 0.5f}}, "BURLEY"));
+  EXPECT_FALSE(message({}, "BURLEY", "BURLEY"));  // where there is none
+  EXPECT_TRUE(warned(compiled(subsurface(Rgb(0.5f), {}, "BURLEY")), "Shader", "BURLEY"));
 }
 
 // Sheen over coat over all else: each knows what covers it.

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from mistakes.below import BELOW
 from mistakes.catchers import CATCHERS
 from mistakes.clear_views import CLEAR
 from mistakes.data import DATA_AND_COMMITS
@@ -19,3 +20,4 @@ from mistakes.views import VIEWS
 
 MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES + SPECULAR_WALKS
 MISTAKES += LECTURE_MADE_VISIBLE + DATA_AND_COMMITS + MOTION_AND_LINKING + CATCHERS + FIBERS
+MISTAKES += BELOW

@@ -19,6 +19,7 @@ from mistakes.sources import (
     PICTURES,
     SCATTER,
     SKY,
+    STEP,
     SUBPATH,
 )
 
@@ -28,7 +29,7 @@ DENSITIES = (
         1,
         "survival of roulette in the densities of camera walks only",
         ORACLE,
-        SUBPATH,
+        STEP,
         "step.left = {sample->delta, sample->pdf_solid, sample->pdf_reverse};",
         "step.left = {sample->delta, mode == TransportMode::Radiance ? q * sample->pdf_solid :"
         " sample->pdf_solid, sample->pdf_reverse};",
@@ -216,7 +217,7 @@ DENSITIES = (
         8,
         "Ns instead of Ng where the reverse density turns from solid angle to area",
         ORACLE,
-        SUBPATH,
+        STEP,
         "step.cos_previous = std::abs(dot(d, v.hit.ng));",
         "step.cos_previous = std::abs(dot(d, v.hit.ns));",
     ),

@@ -26,8 +26,8 @@ FIBERS = (
         "a fibre has a density for light walks",
         HAIR + ":" + TECHNIQUES,
         BSDF,
-        "if (one_way_) {\n    sum.pdf_importance",
-        "if (false && one_way_) {\n    sum.pdf_importance",
+        "if (kind_ == VertexKind::OneWay) {\n    sum.pdf_importance",
+        "if (false) {\n    sum.pdf_importance",
     ),
     one(
         "tubes-with-open-ends",

@@ -59,8 +59,8 @@ MERGES = (
         "a merge counts its vertex twice",
         MERGING,
         CONNECT,
-        "if (edges > l.max_edges || l.crossings",
-        "if (edges + 1 > l.max_edges || l.crossings",
+        "if (l.entry || edges > l.max_edges ||",
+        "if (l.entry || edges + 1 > l.max_edges ||",
     ),
     one(
         "labels-not-for-merges",

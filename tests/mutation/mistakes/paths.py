@@ -15,6 +15,7 @@ from mistakes.sources import (
     PICTURES,
     PILOT,
     RAY_TYPES,
+    STEP,
     SUBPATH,
 )
 
@@ -52,8 +53,8 @@ PATHS = (
         "surfaces with a delta lobe among others are not connected to",
         PICTURES,
         PILOT,
-        "return v.bsdf().connectible() && v.edges",
-        "return v.bsdf().connectible() && v.bsdf().lobes().size() == 1 && v.edges",
+        "return (bsdf.connectible() ||",
+        "return ((bsdf.connectible() && bsdf.lobes().size() == 1) ||",
     ),
     one(
         "shadow-ray-epsilon",
@@ -124,7 +125,7 @@ PATHS = (
         0,
         "a light walk goes on with a label that its segment was not traced for",
         RAY_TYPES,
-        SUBPATH,
+        STEP,
         "shares = shares.within(v.possible_labels(sample->delta));",
         "",
     ),

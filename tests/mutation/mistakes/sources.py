@@ -18,6 +18,7 @@ PILOT = "core/janus/integrator/pilot.h"
 ROULETTE = "core/janus/path/roulette.h"
 SKY = "core/janus/light/program_sky.cpp"
 SCATTER = "core/janus/shading/scatter.cpp"
+STEP = "core/janus/path/step.h"
 SUBPATH = "core/janus/path/subpath.h"
 
 # Wildcards, because files of tests are split and merged.

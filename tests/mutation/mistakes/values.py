@@ -21,7 +21,7 @@ from mistakes.sources import (
     LAYERS,
     PICTURES,
     ROULETTE,
-    SUBPATH,
+    STEP,
 )
 
 VALUES = (
@@ -149,8 +149,8 @@ VALUES = (
         "a cached vertex lacks the smooth lobes that cover others",
         "*ShaderAgreement*:*Techniques*",
         CACHE,
-        "if (layered || !is_delta(lobe)) {",
-        "if (!is_delta(lobe)) {",
+        "if (layered || (out.entry",
+        "if (((out.entry",
     ),
     one(
         "covers-cover-one-lobe-alone",
@@ -175,7 +175,7 @@ VALUES = (
         1,
         "the same for walks",
         PICTURES,
-        SUBPATH,
+        STEP,
         "step.beta = beta / q;",
         "step.beta = beta;",
     ),
