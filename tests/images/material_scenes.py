@@ -138,6 +138,14 @@ def comic(t):
     return t.out("MixShader", {0: _level(t, 2, 0.0, 0.8), 1: base, 2: shine})
 
 
+def below(t):
+    """The medium varies from place to place, so that both ends of a walk have one of their own."""
+    fixed = {"Scale": 0.4, "Radius": (1.0, 0.5, 0.3), "Roughness": 0.8}
+    wax = t.out("SubsurfaceScattering", {**fixed, "Color": _picture(t, 2)})
+    plain = t.out("BsdfDiffuse", {"Color": (0.5, 0.6, 0.7, 1.0)})
+    return t.out("MixShader", {0: _level(t, 3, 0.0, 0.5), 1: wax, 2: plain})
+
+
 # Only the pane is one: right of column SEEN the camera sees no mirror, but what it throws there.
 MIRRORS = {"mirrored"}
 SEEN = 17
@@ -156,6 +164,7 @@ CASES = {
     "brushed": brushed,
     "cloth": cloth,
     "comic": comic,
+    "below": below,
 }
 
 
