@@ -20,7 +20,18 @@ from .closure_cells import (
     mix,
     shader,
 )
-from .closure_inputs import bent, bumped, by_side, colors, facing, flat, from_above, painted, ramp
+from .closure_inputs import (
+    bent,
+    bumped,
+    by_side,
+    colors,
+    displaced,
+    facing,
+    flat,
+    from_above,
+    painted,
+    ramp,
+)
 
 NORMALS = (bumped, bent, flat)
 
@@ -213,6 +224,27 @@ def cover_cells() -> None:
     cell("Add: dust, toon", add(shader("BsdfSheen"), shader("BsdfToon", Size=0.3)))
 
 
+def displaced_cells() -> None:
+    """Of closures with the surface's normal, and with others, which Cycles softens then."""
+
+    def on(name, kind, **inputs):
+        cell(f"Displaced {name}", displaced(shader(kind, **inputs)))
+
+    for normal in ({}, {"Normal": bumped}, {"Normal": bent}, {"Normal": flat}):
+        said = " ".join(n.__name__ for n in normal.values())
+        on(f"Lambert {said}", "BsdfDiffuse", Color=WHITE, **normal)
+        on(f"Diffuse {said}", "BsdfDiffuse", Color=RED, Roughness=0.7, **normal)
+        on(f"Glossy {said}", "BsdfAnisotropic", Color=GREY, Roughness=0.4, **normal)
+    on("Translucent", "BsdfTranslucent", Color=BLUE)
+    on("Glass", "BsdfGlass", Color=WHITE, Roughness=0.4)
+    on("Sheen", "BsdfSheen", Color=WHITE)
+    on("Toon", "BsdfToon", Color=WHITE, Size=0.6)
+    on("Principled", "BsdfPrincipled", Base_Color=RED, Coat_Weight=0.5, Coat_Normal=flat)
+    on("Metal", "BsdfPrincipled", Base_Color=RED, Metallic=0.7, Sheen_Weight=0.5)
+    red = shader("BsdfDiffuse", Color=RED)
+    cell("Displaced mix", displaced(mix(facing, red, shader("BsdfAnisotropic", Roughness=0.3))))
+
+
 def add_layers() -> None:
     cloth_cells()
     toon_cells()
@@ -222,3 +254,4 @@ def add_layers() -> None:
     film_cells()
     tint_cells()
     cover_cells()
+    displaced_cells()

@@ -45,6 +45,11 @@ class Tree:
         made.label = AROUND
         return made.outputs[0]
 
+    def displace(self, socket) -> None:
+        """Links it to the Displacement of the material."""
+        output = next(n for n in self.tree.nodes if n.type == "OUTPUT_MATERIAL")
+        self.tree.links.new(socket, output.inputs["Displacement"])
+
     def value(self, x: float):
         """The output of a Value node."""
         output = self.node("Value").outputs[0]
@@ -154,6 +159,7 @@ def add_cases() -> None:
     import bpy
 
     from . import (
+        node_cases_displacement,
         node_cases_groups,
         node_cases_images,
         node_cases_places,
@@ -164,6 +170,7 @@ def add_cases() -> None:
     math_cases()
     color_cases()
     node_cases_places.add_cases()
+    node_cases_displacement.add_cases()
     node_cases_images.add_cases()
     node_cases_textures.add_cases()
     node_cases_groups.add_cases()

@@ -274,7 +274,7 @@ class PathTracer final : public PassIntegrator {
       if (walk.edges + 1 > settings_.walk.max_edges || beyond_caps(walk.bounces)) {
         return sum;
       }
-      const BsdfView bsdf = shading.bsdf.view(hit->ng, hit->ns);
+      const BsdfView bsdf = shading.bsdf.view(hit->ng, shading.ns);
       if (settings_.layers.colors && walk.edges == 1) {
         settings_.layers.add_color(bsdf, wo, walk.beta, layers);
       }

@@ -42,9 +42,13 @@ class NodeEmitter {
   float filter_width();
   std::optional<uint16_t> shifted_points();
   // Is the node itself looked at from a shifted point?
-  bool shifted() const { return at_ != 0; }
+  bool shifted() const { return at_ != 0 && at_ != kUnbumped; }
+  // Does it displace the surface?
+  bool displaces() const { return at_ >= kUnbumped; }
   // For what Cycles does not look for at shifted points: emits at the point itself.
-  NodeEmitter unshifted() const { return {compiler_, reader_, 0}; }
+  NodeEmitter unshifted() const {
+    return {compiler_, reader_, displaces() ? kUnbumped : uint16_t{0}};
+  }
   bool linked(std::string_view identifier) const { return reader_.link(identifier) != nullptr; }
   // Of what the tree is, and who looks.
   SeenTree seen() const;
