@@ -161,6 +161,7 @@ def add_cases() -> None:
     from . import (
         node_cases_displacement,
         node_cases_groups,
+        node_cases_ies,
         node_cases_images,
         node_cases_places,
         node_cases_textures,
@@ -171,6 +172,7 @@ def add_cases() -> None:
     color_cases()
     node_cases_places.add_cases()
     node_cases_displacement.add_cases()
+    node_cases_ies.add_cases()
     node_cases_images.add_cases()
     node_cases_textures.add_cases()
     node_cases_groups.add_cases()

@@ -59,8 +59,9 @@ struct ShadingPoint {
   vec3 object_normal;
   // For shifted(): the normals of the corners in object space, or nothing.
   vec3 corner_normals[3];
-  bool moved;     // by shifted()
-  bool on_curve;  // else on a triangle or a ball, or nowhere
+  float ray_length;  // of the light of lamps alone: metres to what it lights, or infinite
+  bool moved;        // by shifted()
+  bool on_curve;     // else on a triangle or a ball, or nowhere
 
   bool backfacing() const { return dot(view, ng) < 0.0f; }
   // Cycles' normals look at the viewer.

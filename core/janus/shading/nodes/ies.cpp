@@ -6,6 +6,7 @@
 
 #include "janus/shading/node_emitter.h"
 #include "janus/shading/nodes/families.h"
+#include "janus/shading/rotation.h"
 
 namespace janus {
 
