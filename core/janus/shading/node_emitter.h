@@ -6,8 +6,10 @@
 // "attribute:NAME", "color:" (the active colours), "generated", "normal" (of the vertices),
 // "tangent:NAME" (of a UV map; its handedness is the fourth channel), "tangent_sign:NAME" (that
 // alone), "pointiness", "random_per_island", "curve_intercept", "curve_length", "curve_radius" (of
-// curves). Of an instance: "object:NAME", "instancer:NAME"
-// (properties), "dupli_generated", "dupli_uv" (of what it was made from).
+// curves), "point_radius" (of points). Of an instance: "object:NAME", "instancer:NAME"
+// (properties), "dupli_generated", "dupli_uv" (of what it was made from), and of what a particle
+// shows "particle:times" (its index and age), "particle:lifetime", "particle:size",
+// "particle:location", "particle:velocity", "particle:angular_velocity".
 #pragma once
 
 #include <initializer_list>
