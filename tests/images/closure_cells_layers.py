@@ -130,6 +130,22 @@ def beckmann_cells() -> None:
         each(f"Beckmann {kind}", kind, {**fixed, "Roughness": 0.4}, Normal=(bumped, bent))
 
 
+def ashikhmin_shirley_cells() -> None:
+    """Where Cycles draws directions from the model, it mirrors some about half vectors from behind
+    as about others: of rough ones it counts light twice (5.0), and they are left out here.
+    """
+    name, kind = "Ashikhmin-Shirley", "BsdfAnisotropic"
+    fixed = {"Color": BLUE, "distribution": "ASHIKHMIN_SHIRLEY"}
+    grid(name, kind, fixed, Roughness=(0.0, 0.01, 0.1, 0.3, 0.45), Anisotropy=(0.0, -0.3, 0.4))
+    each(
+        *(name, kind, {**fixed, "Roughness": 0.35, "Anisotropy": 0.4}),
+        Rotation=(0.1, ramp(0.0, 1.0)),
+        Roughness=(ramp(-0.2, 0.5),),
+        Tangent=(across,),
+        Normal=(bumped, bent, flat),
+    )
+
+
 def film_cells() -> None:
     thick = (0.05, 0.5, 150.0, 400.0, 1200.0)
     index = (0.8, 1.33, 2.0)
@@ -251,6 +267,7 @@ def add_layers() -> None:
     metallic_cells()
     anisotropic_cells()
     beckmann_cells()
+    ashikhmin_shirley_cells()
     film_cells()
     tint_cells()
     cover_cells()

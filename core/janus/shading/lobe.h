@@ -23,6 +23,7 @@ enum class LobeType : uint8_t {
   GlossyToon,        // a cone around the mirror direction
   // Of facets, by GGX or Beckmann; the first ones only reflect.
   Glossy,      // without Fresnel term
+  AshikhminShirley,  // the same of a model of its own. See ashikhmin_shirley.h.
   Metal,       // Schlick's Fresnel term with a tint of the edge (F82)
   Conductor,   // Fresnel's own for a metal
   Specular,    // a dielectric's, moved to another F0
@@ -103,6 +104,8 @@ Lobe velvet_lobe(Rgb weight, float sigma);
 Lobe toon_lobe(bool glossy, Rgb weight, float size, float smooth);
 // `color`: what multiple bounces between the facets are tinted with.
 Lobe glossy_lobe(Rgb weight, FacetWidths alpha, bool multiscatter = false, Rgb color = Rgb(1.0f));
+// Where its widths are a mirror's, it is one.
+Lobe ashikhmin_shirley_lobe(Rgb weight, FacetWidths alpha);
 // `edge`: tint of what Schlick's term has at 82 degrees (Kutz et al. 2021).
 Lobe metal_lobe(Rgb weight, Rgb f0, FacetWidths alpha, bool multiscatter = false,
                 Rgb edge = Rgb(1.0f));

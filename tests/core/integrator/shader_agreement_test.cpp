@@ -147,6 +147,12 @@ const ShaderScene kScenes[] = {
      true, 64},
     {"brushed", [] { return waved("BSDF_METALLIC", {{"Roughness", 0.5f}, {"Anisotropy", 0.7f}}); },
      true, 64},
+    {"ashikhmin_shirley",
+     [] {
+       return waved("BSDF_GLOSSY", {{"Roughness", 0.5f}, {"Anisotropy", 0.5f}}, "distribution",
+                    "ASHIKHMIN_SHIRLEY");
+     },
+     true, 64},
     {"coated", [] { return coated(0.4f); }, true},
     {"mirror_coated", [] { return coated(0.0f); }, false, 64},
     // A light walk goes on as the surface looks from where it comes; what the surface lets through

@@ -19,12 +19,12 @@ constexpr SocketDecl kAdd[] = {{"Shader", SocketType::Closure},
 
 constexpr SocketDecl kAov[] = {{"Color", SocketType::Color}, {"Value", SocketType::Float}};
 
-// Glossy names the last one where a surface is rough. What Refraction does not have comes first, so
-// that the places are the same.
+// Glossy has one more. What Refraction does not have comes first, so that the places are the same.
 constexpr std::string_view kDistributions[] = {"MULTI_GGX", "GGX", "BECKMANN"},
-                           kTwoGgx[] = {"MULTI_GGX", "GGX"}, kAshikhmin[] = {"ASHIKHMIN_SHIRLEY"};
+                           kFour[] = {"MULTI_GGX", "GGX", "BECKMANN", "ASHIKHMIN_SHIRLEY"},
+                           kTwoGgx[] = {"MULTI_GGX", "GGX"};
 constexpr EnumDecl kDistribution[] = {{"distribution", kDistributions}},
-                   kGlossy[] = {{"distribution", kDistributions, kAshikhmin}},
+                   kGlossy[] = {{"distribution", kFour}},
                    kPrincipled[] = {{"distribution", kTwoGgx}};
 
 constexpr std::string_view kFresnelTypes[] = {"F82", "PHYSICAL_CONDUCTOR"},
