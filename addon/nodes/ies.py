@@ -27,9 +27,10 @@ def parse_ies(text: str) -> list[float]:
     photometry, vertical, horizontal, rows = _read(text)
     if not vertical or not horizontal:
         raise IesError("it has no angles")
-    vertical, horizontal, rows = (
-        np.array(x, dtype=np.float32) for x in (vertical, horizontal, rows)
-    )
+    with np.errstate(over="ignore"):
+        vertical, horizontal, rows = (
+            np.array(x, dtype=np.float32) for x in (vertical, horizontal, rows)
+        )
     if not all(np.isfinite(x).all() for x in (vertical, horizontal, rows)):
         raise IesError("a number is out of range")
     if photometry == TYPE_A:
@@ -106,9 +107,7 @@ def _read(text: str):
     vertical = scanner.numbers(v_count, "a vertical angle")
     horizontal = scanner.numbers(h_count, "a horizontal angle")
     factor *= WATTS_PER_CANDELA
-    rows = [
-        [factor * x for x in scanner.numbers(v_count, "an intensity")] for _ in range(h_count)
-    ]
+    rows = [[factor * x for x in scanner.numbers(v_count, "an intensity")] for _ in range(h_count)]
     return photometry, vertical, horizontal, rows
 
 

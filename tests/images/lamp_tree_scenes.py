@@ -68,7 +68,7 @@ def dappled(t):
     return emission(t, noise, t.out("TexWave", rings, "Fac", wave_type="RINGS"))
 
 
-# --- What falls otherwise, or is measured ------------------------------------------------------------
+# --- What falls otherwise, or is measured ---------------------------------------------------------
 
 
 def ies(name: str, **inputs):

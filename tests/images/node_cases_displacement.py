@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cases of what is displaced: Cycles bumps the whole surface by it, and all other nodes see that."""
+"""Cases of what is displaced: Cycles bumps the whole surface by it, and all nodes see that."""
 
 from __future__ import annotations
 
@@ -158,9 +158,7 @@ def reader_cases() -> None:
         height = t.out("Math", {0: height}, operation="SINE")
         return t.out("Bump", {"Height": height, "Distance": 0.1, **inputs})
 
-    both_meshes(
-        "displaced for a bump", lambda t: seen_on(t, displaced(t), normal_of(t, bumped(t)))
-    )
+    both_meshes("displaced for a bump", lambda t: seen_on(t, displaced(t), normal_of(t, bumped(t))))
 
     def by_normal(t):
         """The height of the bump sees it as well."""

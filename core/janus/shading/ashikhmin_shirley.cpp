@@ -15,7 +15,8 @@ namespace {
 // Cosine to n to the power of an exponent, which may be another one along the tangent than across.
 class Power {
  public:
-  Power(const Lobe& lobe, vec3 n) : frame_(n), x_(exponent(lobe.alpha)), y_(exponent(lobe.alpha_y)) {
+  Power(const Lobe& lobe, vec3 n)
+      : frame_(n), x_(exponent(lobe.alpha)), y_(exponent(lobe.alpha_y)) {
     if (lobe.alpha != lobe.alpha_y) {
       const vec3 side = cross(n, unpack_direction(lobe.tangent));
       const float length = glm::length(side);

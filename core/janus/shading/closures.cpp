@@ -229,8 +229,7 @@ void add(const ClosureArguments& a, ShadingResult& out) {
 }  // namespace
 
 const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
-    kGlossyClosure{
-        &glossy::add, {.lobes = 1, .anisotropy = {glossy::Anisotropy, 0.0f}}},
+    kGlossyClosure{&glossy::add, {.lobes = 1, .anisotropy = {glossy::Anisotropy, 0.0f}}},
     kGlassClosure{&glass::add, {.transmits = true, .lobes = 1}},
     kRefractionClosure{&refraction::add, {.transmits = true, .lobes = 1}},
     kTranslucentClosure{&translucent::add, {.transmits = true, .lobes = 1}},

@@ -254,9 +254,8 @@ std::optional<vec3> sample_facets(const Lobe& lobe, vec3 ng, vec3 from, float u_
   if (dot(from, n) <= 0.0f) {
     return std::nullopt;
   }
-  const vec3 h = lobe.type == LobeType::AshikhminShirley
-                     ? sample_half_vector(lobe, n, u)
-                     : Facets(lobe, n).sample_visible(from, u);
+  const vec3 h = lobe.type == LobeType::AshikhminShirley ? sample_half_vector(lobe, n, u)
+                                                         : Facets(lobe, n).sample_visible(from, u);
   std::optional<vec3> to = reflect_about(from, h);
   bool transmitted = false;
   if (transmits(lobe)) {

@@ -118,7 +118,7 @@ class GraphCompiler {
   std::vector<AovStep> aovs_;
   std::optional<Value> bumped_normal_;
   size_t bump_steps_ = 0;  // the first ones, which make it
-  int lobes_ = 0;  // at most
+  int lobes_ = 0;          // at most
   std::map<std::tuple<uint32_t, uint32_t, uint32_t, SocketType>, Value> constants_;
   std::map<std::tuple<Kernel, std::vector<uint32_t>, uint32_t, uint16_t>, Value> equal_;
   std::map<NodeAt, std::map<std::string, Value, std::less<>>> outputs_;

@@ -24,6 +24,10 @@ constexpr Operation kHeight = pure<[](vec3 displacement, vec3 n) { return dot(di
 void GraphCompiler::bump_surface() {
   const auto node = graph_.displacement ? nodes_.find(graph_.displacement->node) : nodes_.end();
   if (node == nodes_.end()) {
+    if (graph_.displacement) {
+      diagnostics_.push_back({Severity::Warning, "", material_, graph_.displacement->node,
+                              "the displacement is linked to it, and it is not there"});
+    }
     return;
   }
   const Value one = constant(vec3(1.0f), SocketType::Float);
@@ -35,6 +39,11 @@ void GraphCompiler::bump_surface() {
     const auto& outputs = outputs_[{node->second, at}];
     const auto displacement = outputs.find(graph_.displacement->output);
     if (displacement == outputs.end()) {
+      if (find_node_type(node->second->type)) {  // or it has been named already
+        warn(diagnostics_, material_, *node->second,
+             "the output '" + graph_.displacement->output +
+                 "' is not supported yet; the surface is not displaced");
+      }
       return;
     }
     operands.push_back(emit(kHeight, {displacement->second, normal}, 0, at));

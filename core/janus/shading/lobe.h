@@ -22,14 +22,14 @@ enum class LobeType : uint8_t {
   ChiangRest,        // and TT, TRT, and all after
   GlossyToon,        // a cone around the mirror direction
   // Of facets, by GGX or Beckmann; the first ones only reflect.
-  Glossy,      // without Fresnel term
+  Glossy,            // without Fresnel term
   AshikhminShirley,  // the same of a model of its own. See ashikhmin_shirley.h.
-  Metal,       // Schlick's Fresnel term with a tint of the edge (F82)
-  Conductor,   // Fresnel's own for a metal
-  Specular,    // a dielectric's, moved to another F0
-  Coat,        // a dielectric's
-  Glass,       // reflection and refraction at a dielectric
-  Refraction,  // refraction alone, without Fresnel term
+  Metal,             // Schlick's Fresnel term with a tint of the edge (F82)
+  Conductor,         // Fresnel's own for a metal
+  Specular,          // a dielectric's, moved to another F0
+  Coat,              // a dielectric's
+  Glass,             // reflection and refraction at a dielectric
+  Refraction,        // refraction alone, without Fresnel term
 };
 
 // One term of a Bsdf: plain data in world space, without anything that depends on the view, so that

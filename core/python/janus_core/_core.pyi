@@ -157,10 +157,9 @@ class SceneBuilder:
         """A surface, as a flattened node tree:
 
         {"nodes": [{"name", "type", "inputs": {identifier: value}, "properties": {identifier:
-        value}}], "surface": {"link": [node, output]} or None, "displacement": likewise, by which the
-        surface is bumped}. The value of an input is None, a
-        number, 3 or 4 numbers, a string, or a link. Types and identifiers are Blender's; see
-        node_types(). sample_emission False: what it emits is found by chance only. aovs: a tree
+        value}}], "surface": {"link": [node, output]} or None, "displacement": likewise, by which it
+        is bumped}. The value of an input is None, a number, 3 or 4 numbers, a string, or a link.
+        Types and identifiers are Blender's; see node_types(). sample_emission False: what it emits is found by chance only. aovs: a tree
         that ends in OUTPUT_AOV nodes, with the property aov_name.
 
         Returns the keys of the attributes that they read. Of a mesh: "generated", "normal",

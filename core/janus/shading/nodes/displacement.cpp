@@ -20,10 +20,9 @@ constexpr SocketDecl kInputs[] = {{"Height", Float, 0.0f},
 constexpr std::string_view kSpaces[] = {"OBJECT", "WORLD"};
 constexpr EnumDecl kSettings[] = {{"space", kSpaces}};
 
-constexpr Operation kAlongNormal =
-    pure<[](float height, float midlevel, float scale, vec3 n) {
-      return (height - midlevel) * scale * n;
-    }>;
+constexpr Operation kAlongNormal = pure<[](float height, float midlevel, float scale, vec3 n) {
+  return (height - midlevel) * scale * n;
+}>;
 
 // Metres of the object, straight up from its surface.
 vec3 object_displacement(const Context& c, float height, float midlevel, float scale, vec3 n) {
@@ -71,8 +70,7 @@ void emit_vector_displacement(NodeEmitter& e) {
 
 std::span<const NodeDecl> displacement_nodes() {
   static const NodeDecl kNodes[] = {
-      {"DISPLACEMENT", kInputs, kDisplacement, &emit_displacement, nullptr, MixOp::None,
-       kSettings},
+      {"DISPLACEMENT", kInputs, kDisplacement, &emit_displacement, nullptr, MixOp::None, kSettings},
       {"VECTOR_DISPLACEMENT", kVectorInputs, kDisplacement, &emit_vector_displacement, nullptr,
        MixOp::None, kVectorSettings},
   };

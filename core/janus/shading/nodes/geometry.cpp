@@ -275,14 +275,14 @@ void emit_particle_info(NodeEmitter& e) {
     e.output("Random", e.emit(kHashed, {part(times, 0)}));
     e.output("Age", part(times, 1));
   }
-  for (const auto& [output, key] : {std::pair("Lifetime", "particle:lifetime"),
-                                    std::pair("Size", "particle:size"),
-                                    std::pair("Location", "particle:location"),
-                                    std::pair("Velocity", "particle:velocity"),
-                                    std::pair("Angular Velocity", "particle:angular_velocity")}) {
+  for (const auto& [output, key] :
+       {std::pair("Lifetime", "particle:lifetime"), std::pair("Size", "particle:size"),
+        std::pair("Location", "particle:location"), std::pair("Velocity", "particle:velocity"),
+        std::pair("Angular Velocity", "particle:angular_velocity")}) {
     if (e.output_linked(output)) {
       const Value value = read(key);
-      const bool number = output == std::string_view("Lifetime") || output == std::string_view("Size");
+      const bool number =
+          output == std::string_view("Lifetime") || output == std::string_view("Size");
       e.output(output, number ? part(value, 0) : value);
     }
   }

@@ -35,13 +35,12 @@ struct Angles {
 
   float last() const { return values[count - 1]; }
   bool hold(float angle) const { return angle >= values[0] && angle < last(); }
-  // Of an angle that they hold: the number of the one before it, and the part of the way from there.
+  // Of an angle that they hold: the number of the one before it, and the part of the way from
+  // there.
   int before(float angle) const {
     return static_cast<int>(std::lower_bound(values + 1, values + count - 1, angle) - values) - 1;
   }
-  float part(int i, float angle) const {
-    return (angle - values[i]) / (values[i + 1] - values[i]);
-  }
+  float part(int i, float angle) const { return (angle - values[i]) / (values[i + 1] - values[i]); }
 };
 
 // A table: the numbers of horizontal and of vertical angles, these angles, and for each horizontal
@@ -58,7 +57,7 @@ struct Luminaire {
   // On the row of a horizontal angle. Across a pole Cycles goes on as if both sides were alike.
   float along(int row, int i, float x) const {
     const float* v = values + static_cast<ptrdiff_t>(row) * vertical.count;
-    const bool to_pole = vertical.values[0] < 1e-7f, from_pole = vertical.last() > kPi - 1e-7f;
+    const bool to_pole = vertical.values[0]<1e-7f, from_pole = vertical.last()> kPi - 1e-7f;
     const float b = v[i], c = v[i + 1];
     const float a = i > 0 ? v[i - 1] : to_pole ? v[1] : b;
     const float d = i + 2 < vertical.count ? v[i + 2] : from_pole ? v[vertical.count - 2] : c;
