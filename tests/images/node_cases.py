@@ -171,13 +171,13 @@ def add_cases() -> None:
     math_cases()
     color_cases()
     node_cases_places.add_cases()
-    node_cases_displacement.add_cases()
-    node_cases_ies.add_cases()
     node_cases_images.add_cases()
     node_cases_textures.add_cases()
     node_cases_groups.add_cases()
     node_cases_versions.add_cases()
     node_cases_places.sky_cases()
+    node_cases_displacement.add_cases()
+    node_cases_ies.add_cases()
     older = tuple(name for until, name in OLDER if bpy.app.version < until)
     for name in [n for n in CASES if n.startswith(older)]:
         del CASES[name]
