@@ -159,8 +159,9 @@ class SceneBuilder:
         {"nodes": [{"name", "type", "inputs": {identifier: value}, "properties": {identifier:
         value}}], "surface": {"link": [node, output]} or None, "displacement": likewise, by which it
         is bumped}. The value of an input is None, a number, 3 or 4 numbers, a string, or a link.
-        Types and identifiers are Blender's; see node_types(). sample_emission False: what it emits is found by chance only. aovs: a tree
-        that ends in OUTPUT_AOV nodes, with the property aov_name.
+        Types and identifiers are Blender's; see node_types(). sample_emission False: what it emits
+        is found by chance only. aovs: a tree that ends in OUTPUT_AOV nodes, with the property
+        aov_name.
 
         Returns the keys of the attributes that they read. Of a mesh: "generated", "normal",
         "color:", "uv:NAME", "tangent:NAME", "tangent_sign:NAME" (without a name the active one),
