@@ -103,7 +103,7 @@ What Janus makes of the shader nodes of Blender {first} to {last}: {total}.
 of the range of values (`tests/images/test_nodes.py`; the edges of steps are left out). Both engines
 throw their samples within a hundredth of a pixel, not at the same places: that alone is 1e-3 on a
 steep slope. From 5.1 on Cycles rounds its normals, which bumps and normal maps show; in pictures
-it is the tables of colour spaces. Closures are compared over a grid of their settings, 916 cells,
+it is the tables of colour spaces. Closures are compared over a grid of their settings, 919 cells,
 each to 1 % of its mean (`tests/images/test_closures.py`).
 
 Written by `tests/addon/node_document.py --write`; a test keeps it up to date.

@@ -131,16 +131,16 @@ def beckmann_cells() -> None:
 
 
 def ashikhmin_shirley_cells() -> None:
-    """Where Cycles draws directions from the model, it mirrors some about half vectors from behind
-    as about others: of rough ones it counts light twice (5.0), and they are left out here.
+    """Some of its directions Cycles mirrors about half vectors that it sees from behind, which its
+    densities do not know: less than half a percent of light even where they are all alike.
     """
     name, kind = "Ashikhmin-Shirley", "BsdfAnisotropic"
     fixed = {"Color": BLUE, "distribution": "ASHIKHMIN_SHIRLEY"}
-    grid(name, kind, fixed, Roughness=(0.0, 0.01, 0.1, 0.3, 0.45), Anisotropy=(0.0, -0.3, 0.4))
+    grid(name, kind, fixed, Roughness=(0.0, 0.01, 0.1, 0.3, 0.6, 1.0), Anisotropy=(0.0, -0.3, 0.4))
     each(
         *(name, kind, {**fixed, "Roughness": 0.35, "Anisotropy": 0.4}),
         Rotation=(0.1, ramp(0.0, 1.0)),
-        Roughness=(ramp(-0.2, 0.5),),
+        Roughness=(ramp(-0.2, 1.2),),
         Tangent=(across,),
         Normal=(bumped, bent, flat),
     )
