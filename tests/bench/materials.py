@@ -2,7 +2,7 @@
 """What materials cost: nanoseconds to shade a point, and samples beside Cycles on scenes of
 pictures and of procedural textures; `./dev bench materials`.
 
-The scenes are scenes/textured.py and scenes/procedural.py at 256 x 256 with 8 bounces. Engines
+The scenes are textured.py, procedural.py and skin.py of scenes/ at 256 x 256 with 8 bounces. Engines
 alternate, and medians are shown: a shared machine is noisy. Floors and aims are what the project
 wants; a number below its floor is marked and is no failure.
 """
@@ -22,7 +22,7 @@ from _measure import CapturedScene, Cycles, spread
 
 SIZE, BOUNCES, CYCLES_SAMPLES = 256, 8, 8
 # pt over Cycles
-SCENES = {"textured": (2.0, 4.0), "procedural": (1.0, 2.0)}
+SCENES = {"textured": (2.0, 4.0), "procedural": (1.0, 2.0), "skin": (1.0, 2.0)}
 SAID = {
     "constant": "constant Principled",
     "textured": "three pictures and a normal map",
