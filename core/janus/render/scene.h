@@ -99,6 +99,12 @@ class Scene {
   Surfaces surfaces;
   std::shared_ptr<const Accel> accel;
   LightList lights;           // mesh lights first
+  // Light objects as described, but for their node trees, with the lights that they became.
+  struct Lamp {
+    LightDesc desc;
+    size_t first_light = 0, count = 0;
+  };
+  std::vector<Lamp> described_lamps;
   std::vector<size_t> lamps;  // those that rays meet without a surface; the world last
   LampIndex lamp_index;
   LightSampler light_sampler;
