@@ -12,8 +12,10 @@ namespace {
 
 // Fewer samples tell nothing about how they are spread.
 constexpr uint32_t kFewest = 4;
-// Standard errors that a gain has to be above what chance makes of evenly spread light.
-constexpr float kErrors = 2.0f;
+// Standard errors by which a gain that was seen is taken for less: chance makes some of even light.
+constexpr double kErrors = 2.0;
+// Light is taken to be so uneven, a variance among four children, where nothing was seen of it.
+constexpr double kUnseen = 0.01;
 
 int root_size(int width, int height) {
   return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(width, height))));
@@ -77,7 +79,7 @@ size_t TransportPilot::seen() const {
 // of (E_ic - s_c E_i) over the area of a child, with E the light of the parent and of its children,
 // and s_c the share of child c as the whole tile sees it, which the matrix knows anyway. Squares of
 // sums count pairs of different samples alone (a U-statistic), so that noise is not taken for
-// structure. Where blocks are smaller than the squares in which the shares are known, s_c is 1/4,
+// structure; and where few samples show none, there may be some all the same (kUnseen). Where blocks are smaller than the squares in which the shares are known, s_c is 1/4,
 // and the tile's own structure is a gain, too.
 float TransportPilot::gain(std::span<const Seen> seen, const uint32_t (&ends)[5], int child_size,
                            std::span<const float> weights) const {
@@ -117,15 +119,16 @@ float TransportPilot::gain(std::span<const Seen> seen, const uint32_t (&ends)[5]
   }
   // Of pairs of samples that fall into the children by chance: variance 2 (1/4 - 1/16) a pair.
   double gained = sum - kErrors * std::sqrt(0.375 * chance);
+  const double squared = children_of(tile_squares.data());
+  const double pairs = whole * whole - squared;
   if (!known) {
-    const double squared = children_of(tile_squares.data());
-    double pairs = 0.25 * (squared - whole * whole);
+    double gained_by_tile = -0.25 * pairs - kErrors * std::sqrt(0.375) * squared;
     for (size_t c = 0; c < 4; ++c) {
-      pairs += tile[c] * tile[c] - tile_squares[c];
+      gained_by_tile += tile[c] * tile[c] - tile_squares[c];
     }
-    pairs -= kErrors * std::sqrt(0.375) * squared;
-    gained = std::max(gained, mean_weight * pairs / kPixels);
+    gained = std::max(gained, mean_weight * gained_by_tile / kPixels);
   }
+  gained = std::max(gained, 0.25 * kUnseen * mean_weight * pairs / kPixels);
   return static_cast<float>(gained / (static_cast<double>(child_size) * child_size));
 }
 

@@ -49,12 +49,12 @@ void TransportSums::take(std::vector<Transported>& contributions) {
     entries.push_back({first_sum(tile) + row + blocks_.find(tile, x, y), t.value});
     shares.push_back({(tile * rows + y / shares_size_) * columns + x / shares_size_, t.value});
   }
-  add(entries, sums_);
-  add(shares, shares_);
+  accumulate(entries, sums_);
+  accumulate(shares, shares_);
 }
 
 // What a pass adds to a sum is one sample of it.
-void TransportSums::add(std::vector<Part>& parts, std::vector<Sum>& sums) {
+void TransportSums::accumulate(std::vector<Part>& parts, std::vector<Sum>& sums) {
   std::ranges::stable_sort(parts, {}, &Part::index);
   for (size_t i = 0; i < parts.size();) {
     Sum& sum = sums[parts[i].index];

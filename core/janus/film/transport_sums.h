@@ -52,7 +52,7 @@ class TransportSums final : public TransportFilm {
 
   void take(std::vector<Transported>& contributions) override;
   void pass_taken() override { ++passes_; }
-  static void add(std::vector<Part>& parts, std::vector<Sum>& sums);
+  static void accumulate(std::vector<Part>& parts, std::vector<Sum>& sums);
 
   size_t first_sum(size_t tile) const { return CameraTiles::kPixels * blocks_.first(tile); }
   uint32_t squares(int side) const { return (side + shares_size_ - 1) / shares_size_; }

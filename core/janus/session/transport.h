@@ -18,7 +18,7 @@ struct TransportSettings {
   int width = 64, height = 64;  // of its picture, pixels
   // For the sums of the matrix, bytes: half for entries, at most half for the shares. More of it
   // makes smaller blocks.
-  size_t memory = size_t{1} << 30;
+  size_t memory = size_t{256} << 20;
 
   // Throws SceneError naming the setting.
   void validate() const;

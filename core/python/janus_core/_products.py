@@ -132,18 +132,13 @@ class Products:
             share_variance = self._padded(self._of.share_variance[tiles])
             for side, which, (tile, row, column) in self._levels(blocks):
                 at = (tile - tiles.start, row, column)
-
-                def spread(values, side=side, which=which, at=at, count=len(share)):
-                    grid = np.zeros((count, self._squares // side, self._squares // side, 3))
-                    grid[at] = values[which]
-                    return grid.repeat(side, axis=1).repeat(side, axis=2)
-
-                factor = spread(per_share)
+                factor = self._spread(per_share[which], at, len(share), side)
                 mean += (factor * share).sum(axis=0)
                 # A product of two means; what they have in common, the block's share, counts once.
-                variance += (spread(noise_per_share) * share * share).sum(axis=0)
-                rest = np.maximum(1.0 - share * spread(inverse), 0.0)
-                variance += (factor * factor * share_variance * rest).sum(axis=0)
+                noisy = self._spread(noise_per_share[which], at, len(share), side)
+                rest = 1.0 - share * self._spread(inverse[which], at, len(share), side)
+                variance += (noisy * share * share).sum(axis=0)
+                variance += (factor * factor * share_variance * np.maximum(rest, 0.0)).sum(axis=0)
         pixels = np.maximum(self._pixels_in(squares), 1.0)
         mean = (mean / pixels).repeat(squares, axis=0).repeat(squares, axis=1)
         variance = (variance / pixels**2).repeat(squares, axis=0).repeat(squares, axis=1)
@@ -155,6 +150,12 @@ class Products:
                 result += (grid / pixels**power).repeat(side, axis=0).repeat(side, axis=1)
         width, height = self._of.projector_size
         return tuple(a[:height, :width].astype(np.float32) for a in (mean, variance))
+
+    def _spread(self, values: np.ndarray, at: tuple, tiles: int, side: int) -> np.ndarray:
+        """Values of blocks in each square of them: [tiles, rows, columns, 3], else 0."""
+        grid = np.zeros((tiles, self._squares // side, self._squares // side, 3))
+        grid[at] = values
+        return grid.repeat(side, axis=1).repeat(side, axis=2)
 
     def _by_block(self, parts: np.ndarray) -> np.ndarray:
         count = len(self._of.blocks)

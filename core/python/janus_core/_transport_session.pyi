@@ -27,7 +27,7 @@ class TransportSession:
         projector: str,
         projector_width: int = 64,
         projector_height: int = 64,
-        memory: int = 1 << 30,
+        memory: int = 256 << 20,
     ) -> None: ...
     def start(self) -> None:
         """Starts the capture and returns. Once only."""

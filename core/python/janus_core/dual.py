@@ -28,7 +28,7 @@ __all__ = ["MAX_CAMERA", "MAX_PROJECTOR", "TransportMatrix", "capture", "of_sess
 
 MAX_CAMERA = 512  # pixels on a side
 MAX_PROJECTOR = 256
-MEMORY = 1 << 30
+MEMORY = 256 << 20
 
 
 def capture(
