@@ -9,6 +9,7 @@ from .view_layer import heard
 MOST_PROJECTOR, MOST_CAMERA = 256, 512
 
 
+@heard
 class CaptureSettings:
     """Of a capture: those of a light, and of the operator."""
 

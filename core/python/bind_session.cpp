@@ -308,9 +308,10 @@ void bind_session(py::module_& m) {
       .def("start", &RenderSession::start, "Starts the render and returns. Once only.")
       .def("wait", &wait, "seconds"_a,
            "Waits up to `seconds` for the end, without the GIL; True if the render has ended.")
-      .def("progress", [](const RenderSession& s) { return to_dict(s.progress()); },
-           "samples, target_samples, seconds (since start), remaining (seconds, None before the "
-           "first pass) and state: waiting, rendering, done, cancelled or failed.")
+      .def(
+          "progress", [](const RenderSession& s) { return to_dict(s.progress()); },
+          "samples, target_samples, seconds (since start), remaining (seconds, None before the "
+          "first pass) and state: waiting, rendering, done, cancelled or failed.")
       .def("cancel", &RenderSession::cancel,
            "Asks the render to stop and returns. Whole passes are kept.")
       .def("snapshot", &snapshot, "name"_a = "Combined",
@@ -333,10 +334,11 @@ void bind_session(py::module_& m) {
           "What of the settings has no effect in this scene: list of Diagnostic.")
       .def("finish", &finish,
            "Waits for the end and raises what went wrong on the render threads, if anything.")
-      .def("stats", [](const RenderSession& s) { return to_dict(s.statistics()); },
-           "samples per pixel, seconds of rendering, paths (camera, light), rays by kind, "
-           "light_vertices (kept in the cache), dropped (values that were not finite), "
-           "weight_error.");
+      .def(
+          "stats", [](const RenderSession& s) { return to_dict(s.statistics()); },
+          "samples per pixel, seconds of rendering, paths (camera, light), rays by kind, "
+          "light_vertices (kept in the cache), dropped (values that were not finite), "
+          "weight_error.");
 }
 
 }  // namespace janus::python

@@ -55,6 +55,23 @@ def box(builder):
         builder.set_instance(name, name=name, mesh=name, transform=np.eye(4), materials=[paint])
 
 
+def pane(builder):
+    """Of smooth glass before LEFT; what a walk from the other side meets is a delta."""
+    place = look_at(LEFT["eye"], LEFT["target"])
+    corners = np.array([(x, y, z) for x in (-0.6, 0.6) for y in (-0.6, 0.6) for z in (-0.1, 0.1)])
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    triangles = [t for a, b, c, d in faces for t in ((a, b, c), (a, c, d))]
+    builder.set_mesh(
+        "pane",
+        name="pane",
+        positions=(corners + (0, 0, -0.5)).astype(np.float32),
+        triangles=np.array(triangles, dtype=np.int32),
+    )
+    glass = shader("BSDF_GLASS", Color=[1, 1, 0.9, 1], Roughness=0.0, IOR=1.5)
+    builder.set_material("glass", name="glass", graph=glass)
+    builder.set_instance("pane", name="pane", mesh="pane", transform=place, materials=["glass"])
+
+
 def with_slide(builder, slide) -> dict:
     """A node tree that shows the slide, pixel by pixel."""
     builder.set_image("slide", name="Slide", pixels=slide)
@@ -68,9 +85,10 @@ def with_slide(builder, slide) -> dict:
     return {"nodes": [where, picture, lamp], "surface": {"link": ["Lamp", "Emission"]}}
 
 
-def scene(camera, projector, slide=None, parallel=False, **light):
+def scene(camera, projector, slide=None, parallel=False, add=lambda builder: None, **light):
     builder = SceneBuilder()
     box(builder)
+    add(builder)
     half = camera["half"]
     builder.set_camera(
         name="Camera",
@@ -193,6 +211,17 @@ def test_the_transpose_is_the_matrix_of_the_swapped_pair(matrix):
     )
 
 
+def test_the_transpose_through_glass():
+    """Cycles' transmission is not reciprocal, but a path from air to air is. One way, camera paths
+    go through the glass, the other way light paths."""
+    one = taken(scene(LEFT, RIGHT, add=pane), samples=256)
+    other = taken(scene(RIGHT, LEFT, add=pane), PROJECTOR, SIZE, samples=512)
+    c = np.random.default_rng(3).random((SIZE, SIZE, 3))
+    assert_alike(one.dual(c), one.dual_variance(c), other.relight(c), other.relight_variance(c))
+    bare = taken(scene(LEFT, RIGHT), samples=64)
+    assert one.dual(c).mean() < 0.97 * bare.dual(c).mean()  # the pane is in the way
+
+
 def test_parallel_projectors_are_orthographic_cameras():
     left, right = {**LEFT, "half": 1.1}, {**RIGHT, "half": 0.9}
     slide = np.random.default_rng(8).random((PROJECTOR, PROJECTOR, 3)).astype(np.float32)
@@ -235,6 +264,16 @@ def test_no_light_is_lost_in_blocks(which, request):
     sums = columns.reshape(squares.shape[0], size, squares.shape[1], size, 3).sum(axis=(1, 3))
     assert np.allclose(sums, squares, rtol=1e-3)
     assert np.allclose(columns.sum(axis=(0, 1)), rows.sum(axis=0), rtol=1e-4)
+
+
+def test_light_that_nobody_sees(tmp_path):
+    away = {**RIGHT, "target": (0.9, -9.0, 0.0)}
+    taken(scene(LEFT, away), samples=4).save(tmp_path / "dark.npz")
+    dark = dual.TransportMatrix.load(tmp_path / "dark.npz")
+    assert len(dark.entry_pixel) == 0
+    for picture in (dark.relight(), dark.dual(), dark.relight_variance(), dark.dual_variance()):
+        assert not picture.any()
+    assert dark.dual().shape == (PROJECTOR, PROJECTOR, 3)
 
 
 def test_files(matrix, tmp_path):

@@ -79,8 +79,9 @@ size_t TransportPilot::seen() const {
 // of (E_ic - s_c E_i) over the area of a child, with E the light of the parent and of its children,
 // and s_c the share of child c as the whole tile sees it, which the matrix knows anyway. Squares of
 // sums count pairs of different samples alone (a U-statistic), so that noise is not taken for
-// structure; and where few samples show none, there may be some all the same (kUnseen). Where blocks are smaller than the squares in which the shares are known, s_c is 1/4,
-// and the tile's own structure is a gain, too.
+// structure; and where few samples show none, there may be some all the same (kUnseen). Where
+// blocks are smaller than the squares in which the shares are known, s_c is 1/4, and the tile's own
+// structure is a gain, too.
 float TransportPilot::gain(std::span<const Seen> seen, const uint32_t (&ends)[5], int child_size,
                            std::span<const float> weights) const {
   constexpr size_t kPixels = CameraTiles::kPixels;
@@ -159,9 +160,9 @@ TransportPilot::Tree TransportPilot::grow(std::vector<Seen> seen, float mean) co
     const uint32_t base = seen[task.begin].morton / (4 * step) * (4 * step);
     uint32_t ends[5] = {task.begin, 0, 0, 0, task.end};
     for (uint32_t c = 1; c < 4; ++c) {
-      const auto at = std::lower_bound(
-          seen.begin() + ends[c - 1], seen.begin() + task.end, base + c * step,
-          [](const Seen& s, uint32_t number) { return s.morton < number; });
+      const auto at =
+          std::lower_bound(seen.begin() + ends[c - 1], seen.begin() + task.end, base + c * step,
+                           [](const Seen& s, uint32_t number) { return s.morton < number; });
       ends[c] = static_cast<uint32_t>(at - seen.begin());
     }
     const auto child = static_cast<uint32_t>(tree.nodes.size());

@@ -30,8 +30,9 @@ struct ProjectorDesc {
 // for lamps that are none: suns, points, with a radius or a spread, or sheared.
 ProjectorDesc projector_of(const LightDesc& lamp, int width, int height);
 
-// All pixels shine with one watt each, in every channel. A perspective one has the radiant intensity
-// 1 / (a cos^3) W/sr in a pixel whose area on the film is `a`; a parallel one the irradiance 1 / a.
+// All pixels shine with one watt each, in every channel. A perspective one has the radiant
+// intensity 1 / (a cos^3) W/sr in a pixel whose area on the film is `a`; a parallel one the
+// irradiance 1 / a.
 std::unique_ptr<Light> make_projector(const ProjectorDesc& desc);
 
 // What `light`, made of that lamp, emits into each pixel: watts by channel, row by row from the

@@ -28,8 +28,10 @@ ProjectorDesc find_projector(const Scene& scene, const std::string& name, int wi
   return projector_of(found->desc, width, height);
 }
 
-std::shared_ptr<const Scene> under_projector(const Scene& scene, const ProjectorDesc& projector) {
-  auto lit = std::make_shared<Scene>(scene);
+std::shared_ptr<const Scene> under_projector(const std::shared_ptr<const Scene>& scene,
+                                             const ProjectorDesc& projector) {
+  auto lit = std::make_shared<Scene>(*scene);
+  lit->made_of = scene;
   for (Instance& instance : lit->instances) {
     instance.light = -1;
   }

@@ -18,7 +18,8 @@ ProjectorDesc find_projector(const Scene& scene, const std::string& name, int wi
 
 // The scene, with which the result shares nearly all, lit by nothing but the projector. Surfaces do
 // not shine, the world is black, and shadow catchers are ordinary objects.
-std::shared_ptr<const Scene> under_projector(const Scene& scene, const ProjectorDesc& projector);
+std::shared_ptr<const Scene> under_projector(const std::shared_ptr<const Scene>& scene,
+                                             const ProjectorDesc& projector);
 
 // Watts that the lamp emits into each pixel of the projector, row by row from the bottom: as it is
 // in the scene, with its node tree, and without that.

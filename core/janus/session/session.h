@@ -35,8 +35,8 @@ struct Statistics {
 // for more than a copy of the image, except wait() and finish().
 class RenderSession {
  public:
-  // Throws SceneError for settings that cannot be rendered, or not of this scene. `transport`, which
-  // outlives the session, gets all contributions, too (RenderContext::transport).
+  // Throws SceneError for settings that cannot be rendered, or not of this scene. `transport`,
+  // which outlives the session, gets all contributions, too (RenderContext::transport).
   RenderSession(std::shared_ptr<const Scene> scene, RenderSettings settings,
                 TransportFilm* transport = nullptr);
   // Cancels and joins.

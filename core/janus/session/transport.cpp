@@ -59,7 +59,7 @@ TransportSession::TransportSession(std::shared_ptr<const Scene> scene,
     : transport_((transport.validate(), std::move(transport))), settings_(of_matrix(settings)) {
   projector_ = find_projector(*scene, transport_.projector, transport_.width, transport_.height);
   watts_ = lamp_watts(*scene, projector_);
-  scene_ = under_projector(*scene, projector_);
+  scene_ = under_projector(scene, projector_);
   const CameraTiles tiles{settings_.width, settings_.height};
   shares_size_ = TransportSums::shares_size_for(tiles, transport_.width, transport_.height,
                                                 transport_.memory / 2);

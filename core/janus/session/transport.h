@@ -81,7 +81,7 @@ class TransportSession {
   std::unique_ptr<TransportPilot> pilot_;
   std::unique_ptr<TransportSums> sums_;
   std::unique_ptr<RenderSession> session_;  // the one that runs, or has run
-  bool counts_ = false;  // do its samples count?
+  bool counts_ = false;                     // do its samples count?
   Progress::State state_ = Progress::State::Waiting;
   std::exception_ptr error_;
   double pilot_seconds_ = 0.0;

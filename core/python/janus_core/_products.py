@@ -160,7 +160,7 @@ class Products:
     def _by_block(self, parts: np.ndarray) -> np.ndarray:
         count = len(self._of.blocks)
         sums = [np.bincount(self._of.entry_block, parts[:, c], minlength=count) for c in range(3)]
-        return np.stack(sums, axis=1)
+        return np.stack(sums, axis=1).astype(np.float64)  # of no entries, whole numbers
 
 
 def _sums(pixels: np.ndarray, side: int) -> np.ndarray:

@@ -105,8 +105,8 @@ class TransportMatrix:
     def relight_variance(self, watts: npt.ArrayLike | None = None) -> npt.NDArray[np.float32]:
         """The variance of relight(watts), the squared standard error of each number in it.
 
-        It is taken from how the passes scatter. As they fill each other's gaps, the real one is
-        rather smaller.
+        From how the passes scatter, entry by entry. The real one is rather smaller where the
+        projector shines evenly: light that is missing in one block is in another.
         """
         p = self._picture(self.own_watts if watts is None else watts, self.projector_size)
         factor = self._products.in_blocks(p)[self.entry_block]

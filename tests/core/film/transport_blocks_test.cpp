@@ -99,7 +99,7 @@ TEST(TransportSums, AreMeans) {
     sums.begin_pass();
     sums.start_splats(1);
     sums.add(4, 5, Rgb(1.0f, 2.0f, 0.0f));
-    sums.add_splat(0, vec2(1.5f, 1.9f), 6, Rgb(0.0f, 0.0f, 2.0f * pass));
+    sums.add_splat(0, vec2(1.5f, 1.9f), 6, Rgb(1.0f * pass, 0.0f, 2.0f * pass));
     sums.add_splat(0, vec2(3.01f, 1.0f), 6, Rgb(1.0f));  // beside the picture
     sums.end_pass(pool);
   }
@@ -108,12 +108,12 @@ TEST(TransportSums, AreMeans) {
   const TransportMatrix m = sums.matrix();
   ASSERT_EQ(m.values.size(), 1u);
   EXPECT_EQ(m.pixels[0], 4u);
-  EXPECT_EQ(m.values[0], Rgb(1.0f, 2.0f, 1.0f));
-  EXPECT_EQ(m.variances[0], Rgb(0.0f, 0.0f, 1.0f));
+  EXPECT_EQ(m.values[0], Rgb(1.5f, 2.0f, 1.0f));
+  EXPECT_EQ(m.variances[0], Rgb(0.25f, 0.0f, 1.0f));
   ASSERT_EQ(m.shares.size(), 4u);
   EXPECT_EQ(m.shares[0], Rgb(1.0f, 2.0f, 0.0f));
-  EXPECT_EQ(m.shares[1], Rgb(0.0f, 0.0f, 1.0f));
-  EXPECT_EQ(m.share_variances[1], Rgb(0.0f, 0.0f, 1.0f));
+  EXPECT_EQ(m.shares[1], Rgb(0.5f, 0.0f, 1.0f));
+  EXPECT_EQ(m.share_variances[1], Rgb(0.25f, 0.0f, 1.0f));
 }
 
 }  // namespace

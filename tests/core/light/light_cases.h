@@ -25,7 +25,7 @@ struct LightCase {
 
   std::shared_ptr<const Scene> scene() const {
     const auto built = make().build();
-    return projector ? under_projector(*built, find_projector(*built, "lamp", 8, 4)) : built;
+    return projector ? under_projector(built, find_projector(*built, "lamp", 8, 4)) : built;
   }
 };
 
@@ -174,8 +174,8 @@ inline const LightCase kLightCases[] = {
     {.name = "projector_parallel",
      .make =
          [] {
-           return lamp(shaped(AreaShape::Rectangle, rotation({1, 0, 0}, 0.2f) * scaling({2, -1, 1}),
-                              0));
+           return lamp(
+               shaped(AreaShape::Rectangle, rotation({1, 0, 0}, 0.2f) * scaling({2, -1, 1}), 0));
          },
      .watts = 32,
      .hittable = false,
