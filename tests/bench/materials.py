@@ -2,9 +2,9 @@
 """What materials cost: nanoseconds to shade a point, and samples beside Cycles on scenes of
 pictures and of procedural textures; `./dev bench materials`.
 
-The scenes are textured.py, procedural.py and skin.py of scenes/ at 256 x 256 with 8 bounces. Engines
-alternate, and medians are shown: a shared machine is noisy. Floors and aims are what the project
-wants; a number below its floor is marked and is no failure.
+The scenes are textured.py, procedural.py and skin.py of scenes/, at 256 x 256 with 8 bounces.
+Engines alternate, and medians are shown: a shared machine is noisy. Floors and aims are what the
+project wants; a number below its floor is marked and is no failure.
 """
 
 from __future__ import annotations

@@ -67,6 +67,17 @@ TEST_P(SubsurfaceAgreement, AllIntegrators) {
   expect_integrators_agree(scene, 96, light_tracing);
 }
 
+// All that the camera sees has come a long way below, where roulette ends walks.
+TEST(SubsurfaceAgreementBelow, ThroughASlab) {
+  const auto scene = SceneKit()
+                         .add("slab", cuboid({-2, -2, -0.05f}, {2, 2, 0.05f}),
+                              subsurface(Rgb(0.8f), {{"Scale", 0.15f}, {"Radius", vec3(1)}}))
+                         .light("below", area_light({0, 0, -0.8f}, {0, 0, 0}, 0.8f, 40))
+                         .camera({0, -0.5f, 1.5f}, {0, 0, 0}, 0.3f)
+                         .build();
+  expect_integrators_agree(scene, 96, true);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, SubsurfaceAgreement, ::testing::ValuesIn(kScenes),
                          [](const auto& info) { return std::string(info.param.name); });
 

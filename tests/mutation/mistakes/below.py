@@ -9,6 +9,7 @@ from mistakes.sources import ORACLE
 
 ENDS = "core/janus/shading/subsurface_ends.cpp"
 WALK = "core/janus/render/subsurface_walk.cpp"
+JOIN = "core/janus/path/subsurface.cpp"
 WALKS = "Subsurface*"
 TECHNIQUES = f"{ORACLE}:*SubsurfaceAgreement*:*SingleTechniques*subsurface*"
 
@@ -16,11 +17,11 @@ BELOW = (
     one(
         "walks-below-that-are-alike",
         0,
-        "both walks are thought to go below a surface with the same density",
+        "camera walks think that light walks go below a surface with the same density",
         TECHNIQUES,
-        WALK,
-        "out.pdf_ratio *= static_cast<double>(step.pdf) / pdfs_[i];",
-        "",
+        JOIN,
+        "ratio = walk.reverse(*other, upper_normal(v.hit, arrival)).pdf_ratio *",
+        "ratio =",
     ),
     one(
         "albedo-of-one-end",
