@@ -97,17 +97,18 @@ TEST(Transport, ColumnsAreWhatAPixelLights) {
   Capture capture;
   capture.transport.width = capture.transport.height = 3;
   capture.settings.samples = samples(96);
-  const auto session = capture.run(lit(projector_lamp()));
+  SceneKit kit = lit(projector_lamp());
+  kit.add("wax", ball(0.3f), subsurface(Rgb(0.8f, 0.6f, 0.4f)), translation({0.3f, 0.2f, 0.2f}));
+  const auto session = capture.run(kit);
   const TransportMatrix m = session->matrix();
   ASSERT_EQ(m.shares_size, 1);
-  const LightDesc lamp = projector_lamp();
   for (const int pixel : {4, 3, 7}) {
     ProjectorDesc one = session->projector();
     const vec2 step = (one.high - one.low) / 3.0f;
     one.low += step * vec2(pixel % 3, pixel / 3);
     one.high = one.low + step;
     one.width = one.height = 1;
-    const auto scene = under_projector(lit(lamp).build(), one);
+    const auto scene = under_projector(kit.build(), one);
     double light = 0.0, variance = 0.0;
     for (size_t tile = 0; tile < m.shares.size() / 9; ++tile) {
       light += luminance(m.shares[9 * tile + pixel]);
