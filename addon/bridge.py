@@ -41,6 +41,12 @@ def capturing_builder(builder):
     return importlib.import_module("janus_core.capture").CapturingBuilder(builder)
 
 
+def dual():
+    """The module janus_core.dual."""
+    core()
+    return importlib.import_module("janus_core.dual")
+
+
 def failure() -> str | None:
     """Why the core could not be used when it was last asked for; cheap enough for drawing."""
     return _failure

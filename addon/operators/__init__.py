@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators, and what happens when the user picks the engine."""
 
-from . import cycles_settings, expressions, report, strategies
+from . import cycles_settings, dual, expressions, report, strategies
 
-MODULES = (cycles_settings, expressions, report, strategies)
+MODULES = (cycles_settings, dual, expressions, report, strategies)
 
 
 def register():

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings that Blender saves with a file: scene.janus and view_layer.janus."""
+"""The settings that Blender saves with a file: scene.janus, view_layer.janus and light.janus."""
 
-from . import scene, view_layer
+from . import light, scene, view_layer
 
 
 def register():
     scene.register()
     view_layer.register()
+    light.register()
 
 
 def unregister():
+    light.unregister()
     view_layer.unregister()
     scene.unregister()

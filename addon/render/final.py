@@ -21,7 +21,7 @@ from ..sync.passes import (
 )
 from ..sync.settings import active_views, render_settings
 from ..sync.settings import frame as read_frame
-from . import denoise
+from . import denoise, transport
 from .partial import save_partial
 from .passes import LayerResult
 from .persistent import PersistentData
@@ -73,10 +73,16 @@ def render_layer(engine, depsgraph, log, persistent: PersistentData) -> None:
 def _render(engine, depsgraph, frame, result, log, persistent) -> dict:
     core = bridge.core()
     keywords = render_settings(depsgraph)
+    captures = transport.requests.get(depsgraph.scene.name_full)
+    if captures:
+        keywords = captures.settings(keywords)
     _check_view(engine, depsgraph.scene_eval, log)
     with _user_errors(core):
         settings = core.RenderSettings(**keywords)
     scene, stats = _build(core, engine, depsgraph, frame, settings, log, persistent)
+    if captures:
+        with _user_errors(core):
+            return stats | transport.capture(captures, core, engine, scene, settings, frame, result)
     with _user_errors(core):
         session = core.RenderSession(scene, settings)
     log.extend(session.diagnostics)

@@ -7,6 +7,7 @@ from . import (
     camera,
     data,
     diagnostics,
+    dual,
     engine_panels,
     film,
     material,
@@ -26,6 +27,7 @@ CLASSES = (  # in the order of Cycles' panels
     *passes.CLASSES,
     *material.CLASSES,
     *data.CLASSES,
+    *dual.CLASSES,
     *camera.CLASSES,
 )
 

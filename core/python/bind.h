@@ -28,6 +28,7 @@ void bind_scene(py::module_& m);
 void bind_mesh(py::class_<SceneBuilder>& builder);
 void bind_motion(py::class_<SceneBuilder>& builder);
 void bind_session(py::module_& m);
+void bind_transport(py::module_& m);
 
 // {"nodes": [...], "surface": ...} as the add-on's flattener writes it. `key` is for messages.
 NodeGraph to_graph(const std::string& key, const py::dict& graph);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bind_data.h"
+#include "bind_progress.h"
 #include "janus/render/scene.h"
 #include "janus/session/session.h"
 #include "janus/util/error.h"
@@ -20,11 +21,6 @@ constexpr EnumName<Heuristic> kHeuristics[] = {{"BALANCE", Heuristic::Balance},
                                                {"POWER", Heuristic::Power}};
 constexpr EnumName<ConnectionMode> kConnectionModes[] = {{"CACHE", ConnectionMode::Cache},
                                                          {"CLASSIC", ConnectionMode::Classic}};
-constexpr EnumName<Progress::State> kStates[] = {{"waiting", Progress::State::Waiting},
-                                                 {"rendering", Progress::State::Rendering},
-                                                 {"done", Progress::State::Done},
-                                                 {"cancelled", Progress::State::Cancelled},
-                                                 {"failed", Progress::State::Failed}};
 
 // --- Settings ---
 
@@ -273,55 +269,12 @@ void finish(RenderSession& self) {
   self.finish();
 }
 
-py::dict progress(const RenderSession& self) {
-  const Progress p = self.progress();
-  py::dict d;
-  d["samples"] = p.samples;
-  d["target_samples"] = p.target_samples;
-  d["seconds"] = p.seconds;
-  d["remaining"] = p.remaining;
-  d["state"] = to_name(kStates, p.state);
-  return d;
-}
-
-py::dict stats(const RenderSession& self) {
-  const Statistics s = self.statistics();
-  const Counters& c = s.counters;
-  py::dict d;
-  d["samples"] = s.samples;
-  d["seconds"] = s.seconds;
-  d["paths"] = py::dict("camera"_a = c.camera_paths, "light"_a = c.light_paths);
-  d["rays"] =
-      py::dict("camera"_a = c.camera_rays, "specular"_a = c.specular_rays, "light"_a = c.light_rays,
-               "nee"_a = c.nee_rays, "connection"_a = c.connection_rays, "splat"_a = c.splat_rays);
-  // How far connections and other joins came before they were given up, in this order.
-  d["joins"] =
-      py::dict("connections"_a = c.connections, "connections_facing"_a = c.connections_facing,
-               "connections_evaluated"_a = c.connections_evaluated, "nee"_a = c.nee_samples,
-               "splats"_a = c.splats, "merges"_a = c.merges);
-  d["light_vertices"] = c.light_vertices;
-  d["light_cache_bytes"] = s.cache_bytes;
-  d["dropped"] = c.dropped;
-  d["effort"] =
-      py::dict("light_paths"_a = s.effort.light_paths, "connections"_a = s.effort.connections);
-  d["weight_error"] = s.weight_error;
-  return d;
-}
-
 py::array_t<float> snapshot(const RenderSession& self, const std::string& name) {
   const std::vector<std::string> names = self.passes();
   if (std::ranges::find(names, name) == names.end()) {
     throw py::value_error("there is no pass '" + name + "' in this render");
   }
-  std::unique_ptr<Image> image;
-  {
-    const py::gil_scoped_release release;
-    image = std::make_unique<Image>(self.snapshot(name));
-  }
-  const py::ssize_t shape[] = {image->height, image->width, image->channels};
-  const float* pixels = image->pixels.data();
-  const py::capsule owner(image.release(), [](void* p) { delete static_cast<Image*>(p); });
-  return py::array_t<float>(shape, pixels, owner);
+  return to_array([&] { return self.snapshot(name); });
 }
 
 }  // namespace
@@ -355,9 +308,10 @@ void bind_session(py::module_& m) {
       .def("start", &RenderSession::start, "Starts the render and returns. Once only.")
       .def("wait", &wait, "seconds"_a,
            "Waits up to `seconds` for the end, without the GIL; True if the render has ended.")
-      .def("progress", &progress,
-           "samples, target_samples, seconds (since start), remaining (seconds, None before the "
-           "first pass) and state: waiting, rendering, done, cancelled or failed.")
+      .def(
+          "progress", [](const RenderSession& s) { return to_dict(s.progress()); },
+          "samples, target_samples, seconds (since start), remaining (seconds, None before the "
+          "first pass) and state: waiting, rendering, done, cancelled or failed.")
       .def("cancel", &RenderSession::cancel,
            "Asks the render to stop and returns. Whole passes are kept.")
       .def("snapshot", &snapshot, "name"_a = "Combined",
@@ -380,10 +334,11 @@ void bind_session(py::module_& m) {
           "What of the settings has no effect in this scene: list of Diagnostic.")
       .def("finish", &finish,
            "Waits for the end and raises what went wrong on the render threads, if anything.")
-      .def("stats", &stats,
-           "samples per pixel, seconds of rendering, paths (camera, light), rays by kind, "
-           "light_vertices (kept in the cache), dropped (values that were not finite), "
-           "weight_error.");
+      .def(
+          "stats", [](const RenderSession& s) { return to_dict(s.statistics()); },
+          "samples per pixel, seconds of rendering, paths (camera, light), rays by kind, "
+          "light_vertices (kept in the cache), dropped (values that were not finite), "
+          "weight_error.");
 }
 
 }  // namespace janus::python

@@ -98,6 +98,7 @@ PYBIND11_MODULE(_core, m) {
   bind_errors(m);
   bind_scene(m);
   bind_session(m);
+  bind_transport(m);
   m.def("build_info", &build_info,
         "Versions of the core, of Embree and of the tools that it was built with, as a dict.");
   m.def("node_types", &node_type_list,

@@ -25,6 +25,7 @@ JANUS_ONLY = (
     "strategy",
     "strategies",
     "passes",
+    "dual",
 )
 
 
@@ -60,9 +61,11 @@ def parse(arguments: list[str]) -> argparse.Namespace:
         options.heuristic = options.heuristic or "none"
         if options.heuristic != "none":
             parser.error("--strategy chooses strategies without weights: --heuristic none")
-    for key in ("stats", "capture", "save", "strategies"):
+    for key in ("stats", "capture", "save", "strategies", "dual"):
         if getattr(options, key):
             setattr(options, key, Path(getattr(options, key)).resolve())
+    if options.dual and (options.strategies or options.passes):
+        parser.error("--dual renders neither passes nor strategies")
     if options.engine != "janus":
         for key in JANUS_ONLY:
             if getattr(options, key):
@@ -149,6 +152,20 @@ def _parser() -> argparse.ArgumentParser:
         default=0.0,
         metavar="EV",
         help="stops by which the contact sheet is brightened, which it then says (default: 0)",
+    )
+    add(
+        "--dual",
+        metavar="DIR",
+        help="capture the light transport between a projector (a spot or area light) and the "
+        "camera: DIR/transport.npz, DIR/primal.png, and DIR/dual.png, what the projector sees",
+    )
+    add("--dual-light", metavar="NAME", help="the projector (default: the only light that can be)")
+    add(
+        "--dual-resolution",
+        type=_resolution,
+        default=(64, 64),
+        metavar="WxH",
+        help="pixels of the projector's picture, at most 256x256 (default: 64x64)",
     )
     add("--stats", metavar="FILE", help="write a JSON file with samples, seconds, rays, findings")
     add("--capture", metavar="FILE", help="save the scene for `python -m janus_core` (.npz)")

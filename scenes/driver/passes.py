@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Render passes and the strategy pyramid: asked of the add-on, written beside the picture."""
+"""Render passes, the strategy pyramid and light transport: asked of the add-on, written beside the
+picture."""
 
 from __future__ import annotations
 
@@ -24,6 +25,8 @@ def prepare(scene: bpy.types.Scene, options: argparse.Namespace, addon: Addon) -
             item = next((item for item in expressions if item.name == name), None)
             item = item or expressions.add()
             item.name, item.expression, item.enabled = name, text, True
+    if options.dual:
+        _ask_for_transport(scene, options, addon)
     if options.strategies:
         if scene.janus.integrator != "BDPT":
             raise Problem("only the integrator bdpt has strategies")
@@ -49,6 +52,49 @@ def save(scene: bpy.types.Scene, options: argparse.Namespace, addon: Addon) -> l
         strategies = addon.part("render.strategies")
         exposure = options.strategies_exposure
         files += map(Path, strategies.save(scene, str(options.strategies), exposure))
+    if options.dual:
+        files += _save_transport(scene, options, addon)
+    return files
+
+
+def _ask_for_transport(scene: bpy.types.Scene, options: argparse.Namespace, addon: Addon) -> None:
+    unfit = addon.part("sync.slide").unfit
+    lights = {item.name: item.data for item in scene.objects if item.type == "LIGHT"}
+    name = options.dual_light
+    if name is None:
+        fit = [name for name, light in lights.items() if not unfit(light)[1]]
+        if len(fit) != 1:
+            choice = ", ".join(fit) if fit else "none of its lights can be a projector"
+            raise Problem(f"--dual-light has to name the projector of this scene: {choice}")
+        name = fit[0]
+    elif name not in lights:
+        raise Problem(f"--dual-light: the scene has no light '{name}'")
+    if reason := unfit(lights[name])[1]:
+        raise Problem(f"--dual-light: '{name}': {reason}")
+    transport = addon.part("render.transport")
+    width, height = options.dual_resolution
+    most = transport.MOST_PROJECTOR
+    if max(width, height) > most:
+        raise Problem(f"--dual-resolution: at most {most}x{most}, not {width}x{height}")
+    render = addon.part("sync.settings").frame_size(scene.render)
+    if max(render) > transport.MOST_CAMERA:
+        most = transport.MOST_CAMERA
+        raise Problem(
+            f"--resolution: with --dual at most {most}x{most}, not {render[0]}x{render[1]}"
+        )
+    samples = addon.part("sync.cycles_settings").value(scene, "samples")
+    request = transport.Request(name, width, height, max(render), max(samples, 2))
+    transport.ask(scene, request)
+
+
+def _save_transport(scene: bpy.types.Scene, options: argparse.Namespace, addon: Addon):
+    matrix = addon.part("render.transport").withdraw(scene)
+    options.dual.mkdir(parents=True, exist_ok=True)
+    files = [options.dual / name for name in ("transport.npz", "primal.png", "dual.png")]
+    matrix.save(files[0])
+    save_display = addon.part("render.picture").save_display
+    save_display(scene, str(files[1]), matrix.relight())
+    save_display(scene, str(files[2]), matrix.dual())
     return files
 
 

@@ -41,7 +41,7 @@ class Bdpt final : public BidirectionalIntegrator {
       cached_path_ = measure_cached_path(context, settings, mis_, merging_.used());
     }
     set_effort(effort_);
-    if (!plain() && !settings_.check_weights) {
+    if (!plain() && !settings_.check_weights && !context.transport) {
       path_tracer_ = make_path_tracer(context, settings);
     }
   }
@@ -172,7 +172,7 @@ class Bdpt final : public BidirectionalIntegrator {
     const float margin = context_.film.filter().radius();
     const bool keep = counts_.connection > 0.0f || merges();
     const std::span<CacheBlock> caches = cache_.start(blocks);
-    splats_.start(blocks);
+    start_splats(blocks);
     std::vector<AdaptiveCounts::Moments> moments(meter_ ? blocks : 1);
     context_.pool.parallel_for(blocks, [&](size_t block) {
       context_.cancel.throw_if_cancelled();
@@ -270,7 +270,7 @@ class Bdpt final : public BidirectionalIntegrator {
               merging_.gather(v, mis_, settings_.walk, counters,
                               [&](const LightVertex& l, const CacheBlock& block, const Merge& m,
                                   const UnreadVertices& unread) {
-                                gather_merge(m, {l.edges + 1, v.edges}, sample, counters, [&] {
+                                gather_merge(m, l, v, sample, counters, [&] {
                                   return SortedPath{block.states_of(l), states(v.trace), unread,
                                                     v.caught};
                                 });
@@ -324,11 +324,12 @@ class Bdpt final : public BidirectionalIntegrator {
   }
 
   template <class Path>
-  void gather_merge(const Merge& merged, Technique technique, Sample& sample, Counters& counters,
-                    Path&& path) {
+  void gather_merge(const Merge& merged, const LightVertex& l, const PathVertex& v, Sample& sample,
+                    Counters& counters, Path&& path) {
     const float w = merged.weight.value;
-    gather(settings_.clamp(merged.value * w, technique.edges()), w, technique, sample, counters,
-           path);
+    const Technique technique{l.edges + 1, v.edges};
+    gather(settings_.clamp(merged.value * w, technique.edges()), w, technique, l.pixel, sample,
+           counters, path);
   }
 
   void check(vec2 raster, size_t index, int pass) {

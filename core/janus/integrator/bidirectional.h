@@ -33,6 +33,14 @@ class BidirectionalIntegrator : public PassIntegrator {
                                 : weight.value;
   }
 
+  // Nothing is splatted yet; so many blocks will be.
+  void start_splats(size_t blocks) {
+    splats_.start(blocks);
+    if (context_.transport) {
+      context_.transport->start_splats(blocks);
+    }
+  }
+
   // What arrives of a connection's weighted `value` over its shadow ray, which completes a path of
   // `edges` edges; `samples` and `rays` are counted.
   Rgb arriving(Rgb value, const Connection& c, int edges, const Roulette& roulette,
@@ -53,13 +61,17 @@ class BidirectionalIntegrator : public PassIntegrator {
   }
 
   // Adds `value`, to which `weight` has been applied, to the sample. path() is called for layers.
+  // `source`: the projector's pixel in which the path starts.
   template <class Path>
-  void gather(Rgb value, float weight, Technique technique, Sample& sample, Counters& counters,
-              Path&& path) {
+  void gather(Rgb value, float weight, Technique technique, uint32_t source, Sample& sample,
+              Counters& counters, Path&& path) {
     if (!usable(value, counters)) {
       return;
     }
     sample.sum += value;
+    if (context_.transport) {
+      context_.transport->add(sample.index, source, value);
+    }
     if (settings_.layers.any()) {
       add_to_layers(value, weight, technique, path(), sample.index);
     }
@@ -81,7 +93,7 @@ class BidirectionalIntegrator : public PassIntegrator {
     const float w = weight(found.weight, technique);
     const Rgb value = settings_.clamp(found.beta * found.hit.radiance * w, found.edges) * share;
     WeightedState light;
-    gather(value, w, technique, sample, counters, [&] {
+    gather(value, w, technique, 0, sample, counters, [&] {
       light = light_state(found.light);
       return path_of_light(found, light);
     });
@@ -106,7 +118,9 @@ class BidirectionalIntegrator : public PassIntegrator {
     const Rgb value = arriving(c.value * w, c, v.edges + 1, roulette, sampler, counters.nee_samples,
                                counters.nee_rays);
     WeightedState light;
-    gather(value, w, technique, sample, counters, [&] {
+    const uint32_t source =
+        context_.transport ? context_.scene().lights[nee->light]->pixel(v.hit.p) : 0;
+    gather(value, w, technique, source, sample, counters, [&] {
       light = light_state(nee->light);
       return SortedPath{{&light, 1}, states(v.trace), unread, v.caught};
     });
@@ -139,7 +153,7 @@ class BidirectionalIntegrator : public PassIntegrator {
     const float w = weight(c->weight, technique);
     const Rgb value =
         arriving(c->value * w, *c, edges, roulette, sampler, with_value, counters.connection_rays);
-    gather(value, w, technique, sample, counters,
+    gather(value, w, technique, l.pixel, sample, counters,
            [&] { return SortedPath{block.states_of(l), states(v.trace), unread, v.caught}; });
     found = c->weight;
     return value;
@@ -168,6 +182,9 @@ class BidirectionalIntegrator : public PassIntegrator {
                                                                  v.caught, settings_.walk, value);
     if (is_black(value)) {
       return;
+    }
+    if (context_.transport) {
+      context_.transport->add_splat(block, s->raster, v.pixel, value);
     }
     if (settings_.layers.any()) {
       splats_.add(block, s->raster, value, [&](auto&& add) {

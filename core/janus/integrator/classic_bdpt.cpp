@@ -27,7 +27,7 @@ class ClassicBdpt final : public BidirectionalIntegrator {
   }
 
   void render_wave(const Wave& wave) override {
-    splats_.start(context_.film.rect().height());
+    start_splats(context_.film.rect().height());
     std::vector<CacheBlock> light_paths(context_.film.rect().height());
     for_each_pixel(wave, [&](size_t i, size_t row, Counters& counters) {
       CacheBlock& light_path = light_paths[row];

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "janus/film/film.h"
+#include "janus/film/transport_film.h"
 #include "janus/integrator/adaptive_counts.h"
 #include "janus/integrator/clamp.h"
 #include "janus/integrator/layers.h"
@@ -47,6 +48,9 @@ struct RenderContext {
   Film& film;
   ThreadPool& pool;
   const CancelToken& cancel;
+  // Gets every contribution, too, by the pixel of the projector that its path starts in: of a scene
+  // that is under_projector(), from bdpt. Null: nobody asks.
+  TransportFilm* transport = nullptr;
 
   // What stands before the camera now: for a wave they stay the same.
   const Scene& scene() const { return exposure.scene(); }

@@ -157,6 +157,12 @@ class Light {
     (void)endpoint, (void)direction, (void)distance;
     return Rgb(1.0f);
   }
+
+  // Projectors: the number of the pixel from which light goes to z_1 (light/projector.h).
+  virtual uint32_t pixel(vec3 z_1) const {
+    (void)z_1;
+    return 0;
+  }
 };
 
 // Scenes that differ in time share the lights that stand still.

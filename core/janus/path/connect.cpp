@@ -16,6 +16,7 @@ LightVertex::LightVertex(const PathVertex& v)
       bound(max_component(v.beta) * v.bsdf().peak()),
       instance(v.hit.instance),
       first_state(0),
+      pixel(v.pixel),
       first_lobe(0),
       reshading(-1),
       edges(static_cast<uint16_t>(v.edges)),

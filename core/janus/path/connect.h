@@ -34,6 +34,7 @@ struct LightVertex {
   MisState mis;
   float bound;  // max |beta| times the peak of the BSDF
   uint32_t instance, first_state;
+  uint32_t pixel;  // PathVertex::pixel
   uint32_t first_lobe;
   int32_t reshading;  // in the cache, if the lobes depend on the view; -1: they do not
   uint16_t edges, crossings, max_edges;

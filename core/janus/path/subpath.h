@@ -119,6 +119,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   const float pdf_nee = scene.light_sampler.pmf_illumination(receiver, index, emission->primitive) *
                         light.pdf_illumination(*emission, *endpoint, v.hit.p);
   v.light_end = {joint, pdf_nee, light.hittable(), v.back};
+  v.pixel = light.pixel(v.hit.p);
   v.mis = mis.begin_light(joint, pdf_nee, light.hittable());
   float eta_scale = 1.0f;
   WalkStep step;

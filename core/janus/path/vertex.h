@@ -65,6 +65,7 @@ struct PathVertex {
   bool caught = false;
   int max_edges;       // light subpaths: of the whole path, with this vertex no delta if it is z_1
   LightEnd light_end;  // light subpaths: their start
+  uint32_t pixel = 0;  // light subpaths: Light::pixel() of their start
   CameraEnd camera_end;  // camera subpaths: theirs
   Passage passage;       // of a SubsurfaceEntry or SubsurfaceExit
 

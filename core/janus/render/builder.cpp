@@ -164,10 +164,14 @@ class Commit {
       if (lamp.name.empty()) {
         lamp.name = key;
       }
+      Scene::Lamp described{lamp, scene_.lights.size()};
+      described.desc.graph.reset();
       for (auto& light : make_lamp(std::move(lamp), images, around, scene_.diagnostics)) {
         light->light_group = desc.light_group;
         add_light(shines ? std::move(light) : std::make_unique<DarkLight>(std::move(light)));
       }
+      described.count = scene_.lights.size() - described.first_light;
+      scene_.described_lamps.push_back(std::move(described));
     }
   }
 

@@ -98,7 +98,13 @@ class Scene {
   std::vector<Instance> instances;
   Surfaces surfaces;
   std::shared_ptr<const Accel> accel;
-  LightList lights;           // mesh lights first
+  LightList lights;  // mesh lights first
+  // Light objects as described, but for their node trees, with the lights that they became.
+  struct Lamp {
+    LightDesc desc;
+    size_t first_light = 0, count = 0;
+  };
+  std::vector<Lamp> described_lamps;
   std::vector<size_t> lamps;  // those that rays meet without a surface; the world last
   LampIndex lamp_index;
   LightSampler light_sampler;
@@ -116,8 +122,9 @@ class Scene {
   std::vector<std::string> aov_names;
   // What the camera sees of them in the background; null: nothing.
   std::shared_ptr<const Program> world_aovs;
-  // Of a scene at a time of the shutter: the one that it was made of, with which it shares much.
-  std::shared_ptr<const Scene> timeless;
+  // Of a scene at a time of the shutter, or under a projector: the one that it was made of, with
+  // which it shares much.
+  std::shared_ptr<const Scene> made_of;
   // Where the camera may see shadow catchers: the scene as the footage shows it, with them and
   // their lights alone. Null: there are none.
   std::shared_ptr<const Scene> catchers_alone;

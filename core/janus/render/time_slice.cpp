@@ -95,7 +95,7 @@ size_t slice_work(const Scene& scene) {
 std::shared_ptr<const Scene> at_time(const std::shared_ptr<const Scene>& scene, float time,
                                      const CancelToken& cancel, const Scene* whole) {
   auto slice = std::make_shared<Scene>(*scene);
-  slice->timeless = scene;
+  slice->made_of = scene;
   slice->whole = whole;
   slice->camera = camera_at(scene->camera, time);
   const bool instances_move = any_instance_moves(*scene);

@@ -22,11 +22,13 @@ double now() {
 
 }  // namespace
 
-RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings settings)
+RenderSession::RenderSession(std::shared_ptr<const Scene> scene, RenderSettings settings,
+                             TransportFilm* transport)
     : scene_(std::move(scene)),
       settings_((settings.validate(), std::move(settings))),
       passes_(settings_, *scene_),
-      diagnostics_(passes_.diagnostics()) {
+      diagnostics_(passes_.diagnostics()),
+      transport_(transport) {
   check_memory();
   check_strategies();
   check_lights();
@@ -185,7 +187,7 @@ void RenderSession::run() {
   ThreadPool pool(settings_.threads);
   Exposure exposure(scene_, settings_.width, settings_.height, settings_.rect().pixels(),
                     settings_.motion_blur, settings_.seed);
-  const RenderContext context{exposure, *film_, pool, cancel_};
+  const RenderContext context{exposure, *film_, pool, cancel_, transport_};
   const IntegratorSettings how = integrator_settings(*scene_, passes_.layers());
   const auto integrator = make_integrator(context, how);
   const auto data =
@@ -205,6 +207,9 @@ void RenderSession::run() {
     cancel_.throw_if_cancelled();
     // Only this thread and its pool write a pass, and nobody reads one that has not ended.
     film_->begin_pass();
+    if (transport_) {
+      transport_->begin_pass();
+    }
     integrator->begin_pass(pass);
     if (footage) {
       catcher_film_->begin_pass();
@@ -225,6 +230,9 @@ void RenderSession::run() {
     integrator->end_pass();
     if (footage) {
       footage_integrator->end_pass();
+    }
+    if (transport_) {
+      transport_->end_pass(pool);
     }
     const std::lock_guard lock(mutex_);
     film_->end_pass(pool);

@@ -35,8 +35,10 @@ struct Statistics {
 // for more than a copy of the image, except wait() and finish().
 class RenderSession {
  public:
-  // Throws SceneError for settings that cannot be rendered, or not of this scene.
-  RenderSession(std::shared_ptr<const Scene> scene, RenderSettings settings);
+  // Throws SceneError for settings that cannot be rendered, or not of this scene. `transport`,
+  // which outlives the session, gets all contributions, too (RenderContext::transport).
+  RenderSession(std::shared_ptr<const Scene> scene, RenderSettings settings,
+                TransportFilm* transport = nullptr);
   // Cancels and joins.
   ~RenderSession();
   RenderSession(const RenderSession&) = delete;
@@ -85,6 +87,7 @@ class RenderSession {
   RenderSettings settings_;
   RenderPasses passes_;
   Diagnostics diagnostics_;
+  TransportFilm* transport_;
   CancelToken cancel_;
   std::thread thread_;
 

@@ -17,6 +17,7 @@ A scene goes in as arrays, node graphs and numbers, a picture comes out as an ar
 
 Words and units are Blender's: metres, watts, radians, scene-linear Rec.709, 4x4 matrices that
 multiply column vectors. `janus_core.capture` saves and loads scenes, `janus_core.exr` pictures;
+`janus_core.dual` captures light transport matrices;
 `python -m janus_core` renders a saved scene.
 """
 
@@ -31,6 +32,7 @@ from ._core import (
     Scene,
     SceneBuilder,
     SceneError,
+    TransportSession,
     __version__,
     build_info,
     check_expression,
@@ -50,6 +52,7 @@ __all__ = [
     "Scene",
     "SceneBuilder",
     "SceneError",
+    "TransportSession",
     "__version__",
     "build_info",
     "check_expression",

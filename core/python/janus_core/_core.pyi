@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._settings import RenderSettings as RenderSettings
+from ._transport_session import TransportSession as TransportSession
 from ._typed_dicts import Counts, Progress, Stats
 
 __version__: str

@@ -4,6 +4,7 @@
 // first; the receiver, a square of side 1 at the origin with normal +z, is not part of the scene.
 #pragma once
 
+#include "janus/render/under_projector.h"
 #include "support/scene_kit.h"
 #include "support/statistics.h"
 
@@ -20,6 +21,12 @@ struct LightCase {
   bool whole = true;     // shines over all of its surface towards the receiver
   // Projected area from which the light sends rays in a direction; null: not compared.
   double (*projected)(vec3) = nullptr;
+  bool projector = false;  // the lamp as a projector of 8 x 4 pixels
+
+  std::shared_ptr<const Scene> scene() const {
+    const auto built = make().build();
+    return projector ? under_projector(built, find_projector(*built, "lamp", 8, 4)) : built;
+  }
 };
 
 inline std::ostream& operator<<(std::ostream& out, const LightCase& c) { return out << c.name; }
@@ -167,6 +174,21 @@ inline NodeGraph sky_texture(const std::string& model,
 }
 
 inline const LightCase kLightCases[] = {
+    {.name = "projector",  // a watt for each pixel
+     .make = [] { return lamp(spot(0, true, scaling({2, 0.5f, 1}))); },
+     .watts = 32,
+     .hittable = false,
+     .projected = of_point,
+     .projector = true},
+    {.name = "projector_parallel",
+     .make =
+         [] {
+           return lamp(
+               shaped(AreaShape::Rectangle, rotation({1, 0, 0}, 0.2f) * scaling({2, -1, 1}), 0));
+         },
+     .watts = 32,
+     .hittable = false,
+     .projector = true},
     {.name = "point",
      .make = [] { return lamp(point_light({0.2f, 0.1f, 1}, 7)); },
      .watts = 7,

@@ -22,7 +22,7 @@ std::optional<vec3> landing(const EmissionSample& e) {
 
 class Lights : public ::testing::TestWithParam<LightCase> {
  protected:
-  const std::shared_ptr<const Scene> scene_ = GetParam().make().build();
+  const std::shared_ptr<const Scene> scene_ = GetParam().scene();
   const Light& light_ = *scene_->lights.at(0);
 
   // Next event estimation: `pdf_solid` with the choice of the emitter in it.

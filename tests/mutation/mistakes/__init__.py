@@ -15,9 +15,10 @@ from mistakes.merges import MERGES
 from mistakes.motion import MOTION_AND_LINKING
 from mistakes.paths import PATHS
 from mistakes.specular_walks import SPECULAR_WALKS
+from mistakes.transport import TRANSPORT
 from mistakes.values import VALUES
 from mistakes.views import VIEWS
 
 MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES + SPECULAR_WALKS
 MISTAKES += LECTURE_MADE_VISIBLE + DATA_AND_COMMITS + MOTION_AND_LINKING + CATCHERS + FIBERS
-MISTAKES += BELOW
+MISTAKES += BELOW + TRANSPORT

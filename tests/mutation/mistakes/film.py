@@ -104,8 +104,8 @@ FILM_AND_SAMPLES = (
         (
             Edit(
                 BDPT,
-                "splats_.start(blocks);",
-                "splats_.start(blocks); std::vector<CacheBlock> ended;",
+                "start_splats(blocks);",
+                "start_splats(blocks); std::vector<CacheBlock> ended;",
             ),
             Edit(
                 BDPT,
