@@ -3,6 +3,8 @@
 
 import bpy
 
+from .ies import IesError, parse_ies
+
 TABLE_SIZE = 256  # as many as Cycles samples
 
 
@@ -72,6 +74,27 @@ def _space_of_normals(_node) -> dict:
     return {"world_normals": True} if bpy.app.version >= (5, 1, 0) else {}
 
 
+def _beam(node) -> dict:
+    """The table of an IES file, or why there is none."""
+    try:
+        return {"ies": parse_ies(_ies_text(node))}
+    except IesError as error:
+        return {"ies_error": str(error)}
+
+
+def _ies_text(node) -> str:
+    if node.mode == "INTERNAL":
+        if node.ies is None:
+            raise IesError("no text is chosen")
+        return "".join(f"{line.body}\n" for line in node.ies.lines)
+    path = bpy.path.abspath(node.filepath, library=node.id_data.library)
+    try:
+        with open(path, encoding="latin-1") as file:
+            return file.read()
+    except OSError as error:
+        raise IesError(f"'{node.filepath}' cannot be read ({error.strerror})") from error
+
+
 def _image_user(node) -> dict:
     if node.image is None or node.image.source not in ("SEQUENCE", "MOVIE"):
         return {}
@@ -89,6 +112,7 @@ READERS = {
     "CURVE_FLOAT": _curves,
     "NORMAL": _direction,
     "TEX_COORD": _other_object,
+    "TEX_IES": _beam,
     "TEX_IMAGE": _image_user,
     "TEX_ENVIRONMENT": _image_user,
 }

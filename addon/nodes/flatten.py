@@ -6,7 +6,8 @@ output reaches is kept: that of the material, or those of AOVs, in a graph of th
 
     {"nodes": [{"name", "type", "inputs": {identifier: value | {"link": [name, output]}},
                 "properties": {identifier: value}}],
-     "surface": {"link": [name, output]} | None}
+     "surface": {"link": [name, output]} | None,
+     "displacement": the same, where something is linked to it}
 
 Nothing is left out because it is unsupported: that is for the core to find and to say.
 """
@@ -61,8 +62,8 @@ class Source:
 
 
 def flatten_tree(tree, scene, target: str = "CYCLES") -> dict:
-    """The graph behind the Surface input of the tree's active output for `target` or All, at the
-    time of the scene.
+    """The graph behind the Surface and Displacement inputs of the tree's active output for `target`
+    or All, at the time of the scene.
     """
     output = tree.get_output_node(target) if tree else None
     surface = output.inputs.get("Surface") if output else None
@@ -70,12 +71,20 @@ def flatten_tree(tree, scene, target: str = "CYCLES") -> dict:
         return {"nodes": [], "surface": None}
     flattener = _Flattener(scene)
     link = flattener.input(surface, Scope())
+    displacement = _displacement(flattener, output)
     flattener.run()
-    return {"nodes": flattener.nodes, "surface": link}
+    return {"nodes": flattener.nodes, "surface": link, **displacement}
 
 
-def flatten_aovs(tree, scene, wanted: dict[str, str]) -> dict | None:
+def _displacement(flattener, output) -> dict:
+    socket = output.inputs.get("Displacement") if output else None
+    found = flattener.input(socket, Scope()) if socket else None
+    return {"displacement": found} if isinstance(found, dict) else {}
+
+
+def flatten_aovs(tree, scene, wanted: dict[str, str], target: str = "CYCLES") -> dict | None:
     """The graph of the tree's AOV Output nodes, at the time of the scene; None: there are none.
+    They see the surface as it is displaced, too.
 
     `wanted`: name of an AOV -> its type, COLOR or VALUE. Of a node only the input for that type
     is kept.
@@ -84,8 +93,11 @@ def flatten_aovs(tree, scene, wanted: dict[str, str]) -> dict | None:
     for node, scope in _aov_outputs(tree, Scope()) if wanted else ():
         if node.aov_name in wanted:
             flattener.aov(node, scope, AOV_INPUTS[wanted[node.aov_name]])
+    if not flattener.nodes:
+        return None
+    displacement = _displacement(flattener, tree.get_output_node(target))
     flattener.run()
-    return {"nodes": flattener.nodes, "surface": None} if flattener.nodes else None
+    return {"nodes": flattener.nodes, "surface": None, **displacement}
 
 
 def _aov_outputs(tree, scope: Scope, depth: int = 0):

@@ -49,9 +49,12 @@ def points_arrays(cloud, keys, log) -> dict | None:
         for key in sorted(keys)
         if key.startswith(("attribute:", "uv:"))
     }
+    radii = _radii(cloud, POINT_RADIUS)
+    if "point_radius" in keys:
+        named["point_radius"] = {"domain": "POINT", "values": radii}
     return {
         "positions": _positions(cloud),
-        "radii": _radii(cloud, POINT_RADIUS),
+        "radii": radii,
         "attributes": _attributes(named),
     }
 

@@ -32,7 +32,6 @@ class InstanceSync:
         self._log = log
         self._poll = poll
         self._motion = motion
-        self._properties = InstanceProperties(log)
         self._kinds = {}  # addresses of an object, its data and who shows it -> arguments
         self._checked = set()  # addresses of objects
         self._hairy = {}  # the same -> whether hair grows on it
@@ -46,6 +45,7 @@ class InstanceSync:
     def run(self, depsgraph, shown=None) -> None:
         """`shown`: of an original object, whether it is part of the picture."""
         self._depsgraph = depsgraph
+        self._properties = InstanceProperties(depsgraph.scene_eval.frame_current_final, self._log)
         self._linking = Linking(depsgraph, self._log)
         self._viewport = depsgraph.mode == "VIEWPORT"
         layer = self._view_layer = depsgraph.view_layer

@@ -64,10 +64,18 @@ class MaterialSync:
         elif output.inputs["Volume"].is_linked:
             self._log.warning("volumes are not supported yet", material=material.name)
         if output and output.inputs["Displacement"].is_linked:
-            self._log.warning("displacement is not supported yet", material=material.name)
+            self._check_displacement(material, output)
         if not getattr(getattr(material, "cycles", None), "use_bump_map_correction", True):
             self._log.warning("bump map correction is always on", material=material.name)
         return read_graph(tree, self._depsgraph)
+
+    def _check_displacement(self, material, output) -> None:
+        if material.displacement_method != "BUMP":
+            self._log.warning(
+                "displacement of the surface itself is not supported yet; it is rendered as bump",
+                material=material.name,
+                node=output.name,
+            )
 
 
 def sample_emission(material) -> bool:

@@ -10,7 +10,7 @@ NOT_FOUND = (0.0, 0.0, 0.0, 0.0)
 NO_INDEX = 2**31 - 1  # fills what persistent_id does not use
 # The kinds of the keys of set_material() that are the instance's, not the mesh's.
 OF_OBJECT = ("object:",)
-OF_INSTANCE = ("instancer:", "dupli_generated", "dupli_uv")
+OF_INSTANCE = ("instancer:", "dupli_generated", "dupli_uv", "particle:")
 
 
 def object_attributes(obj, keys) -> dict:
@@ -22,7 +22,8 @@ def object_attributes(obj, keys) -> dict:
 class InstanceProperties:
     """What instances have of their own, by the keys of set_material()."""
 
-    def __init__(self, log):
+    def __init__(self, frame: float, log):
+        self._frame = frame
         self._log = log
         self._stored = {}  # (address of an instancer, name) -> values by the number of the instance
 
@@ -34,9 +35,23 @@ class InstanceProperties:
                 found[key] = (*(0.5 * x - 0.5 for x in instance.orco), 1.0)
             elif key == "dupli_uv" and instance.is_instance:
                 found[key] = (*instance.uv, 0.0, 1.0)
+            elif key.startswith("particle:"):
+                found |= self._of_particle(instance, key)
             elif key.startswith("instancer:"):
                 found[key] = self._of_instancer(instance, key.removeprefix("instancer:"))
         return found
+
+    def _of_particle(self, instance, key: str) -> dict:
+        """What the node Particle Info reads. Children have nothing, as in Cycles."""
+        system = instance.particle_system if instance.is_instance else None
+        index = instance.persistent_id[0]
+        if system is None or not 0 <= index < len(system.particles):
+            return {}
+        particle = system.particles[index]
+        if key == "particle:times":
+            return {key: (float(index), self._frame - particle.birth_time, 0.0, 1.0)}
+        value = getattr(particle, key.removeprefix("particle:"))
+        return {key: (value, 0.0, 0.0, 1.0) if isinstance(value, float) else (*value, 1.0)}
 
     def _of_instancer(self, instance, name: str) -> tuple:
         obj = instance.object

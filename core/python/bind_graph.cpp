@@ -24,18 +24,25 @@ class GraphReader {
       }
       result.nodes.push_back(node(py::reinterpret_borrow<py::dict>(item)));
     }
-    path_ = "surface";
-    if (graph.contains("surface") && !graph["surface"].is_none()) {
-      const py::object surface = graph["surface"];
-      if (!py::isinstance<py::dict>(surface)) {
-        fail("must be None or {'link': [node, output]}");
-      }
-      result.surface = link(surface);
-    }
+    result.surface = end(graph, "surface");
+    result.displacement = end(graph, "displacement");
     return result;
   }
 
  private:
+  // What is linked to an input of the output node.
+  std::optional<NodeLink> end(const py::dict& graph, const char* name) {
+    path_ = name;
+    if (!graph.contains(name) || graph[name].is_none()) {
+      return std::nullopt;
+    }
+    const py::object given = graph[name];
+    if (!py::isinstance<py::dict>(given)) {
+      fail("must be None or {'link': [node, output]}");
+    }
+    return link(given);
+  }
+
   [[noreturn]] void fail(const std::string& message) const {
     throw SceneError(key_, path_, message);
   }

@@ -270,13 +270,15 @@ void bind_scene(py::module_& m) {
           "key"_a, py::kw_only(), "name"_a, "graph"_a, "sample_emission"_a = true,
           "material_index"_a = 0.0f, "aovs"_a = py::none(),
           "A surface, as a flattened node tree: {'nodes': [{'name', 'type', 'inputs', "
-          "'properties'}], 'surface': {'link': [node, output]} or None}; aovs: likewise a tree "
-          "that "
-          "ends in OUTPUT_AOV nodes, with the property aov_name. Returns the keys of the "
-          "attributes that they read. Of a mesh: 'generated', 'normal', 'color:', 'uv:NAME', "
+          "'properties'}], 'surface': {'link': [node, output]} or None, 'displacement': likewise, "
+          "by which it is bumped}; aovs: likewise a tree that ends in OUTPUT_AOV nodes, with the "
+          "property aov_name. Returns the keys of the attributes that they read. Of a mesh: "
+          "'generated', 'normal', 'color:', 'uv:NAME', "
           "'tangent:NAME', 'tangent_sign:NAME' (no name: the active one), 'attribute:NAME', "
-          "'pointiness', 'random_per_island'. Of an instance: 'object:NAME', 'instancer:NAME', "
-          "'dupli_generated', 'dupli_uv'.")
+          "'pointiness', 'random_per_island'; of points 'point_radius'. Of an instance: "
+          "'object:NAME', 'instancer:NAME', 'dupli_generated', 'dupli_uv', 'particle:times' (index "
+          "and age), 'particle:lifetime', 'particle:size', 'particle:location', "
+          "'particle:velocity', 'particle:angular_velocity'.")
       .def(
           "set_image", &set_image, "key"_a, py::kw_only(), "name"_a, "pixels"_a, "srgb"_a = false,
           "associated"_a = false,

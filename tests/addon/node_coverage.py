@@ -13,16 +13,10 @@ REFUSED = {
     "AMBIENT_OCCLUSION": "needs rays of its own",
     "BEVEL": "needs rays of its own",
     "BSDF_RAY_PORTAL": "rays that go on elsewhere",
-    "DISPLACEMENT": "displacement; named for the material",
-    "LIGHT_FALLOFF": "the distance to what is lit",
     "MATERIAL_RAYCAST": "needs rays of its own",
-    "PARTICLE_INFO": "particles",
-    "POINT_INFO": "point clouds",
     "PRINCIPLED_VOLUME": "volume; named for the material",
     "SCRIPT": "OSL",
-    "TEX_IES": "beams of IES files",
     "TEX_POINTDENSITY": "volume",
-    "VECTOR_DISPLACEMENT": "displacement; named for the material",
     "VOLUME_ABSORPTION": "volume; named for the material",
     "VOLUME_COEFFICIENTS": "volume; named for the material",
     "VOLUME_INFO": "volume",
@@ -57,16 +51,19 @@ IDLE_ITEMS = {
     ("BSDF_HAIR_PRINCIPLED", "model"): {"HUANG"},
     ("MIX", "data_type"): {"ROTATION"},
 }
+AS_BUMP = "as bump; what is to displace the surface itself is named"
 FILMS = "films before 5.0 have the colours of 5.0"
 REMARKS = {
     **dict.fromkeys(("BSDF_GLASS", "BSDF_METALLIC", "BSDF_PRINCIPLED"), FILMS),
+    **dict.fromkeys(("DISPLACEMENT", "VECTOR_DISPLACEMENT"), AS_BUMP),
     "ATTRIBUTE": "rotations on edges, and instances in instances, are named; before 4.5 also "
     "what Geometry Nodes store on instances",
     "BSDF_HAIR": "on meshes named; where Cycles looks for lamps it leaves out a part of it",
     "BSDF_HAIR_PRINCIPLED": "Huang's model is named, and Chiang's is used; on meshes named",
     "BUMP": "a bump in the height of another bump is named",
+    "LIGHT_FALLOFF": "of lamps and worlds; on surfaces all but Quadratic without Smooth is named",
     "LIGHT_PATH": "which kind of ray asks: camera, shadow, diffuse, glossy, reflection or "
-    "transmission; counts of bounces, lengths and Is Singular Ray are named",
+    "transmission; counts of bounces, Is Singular Ray, and Ray Length on surfaces are named",
     "REPEAT_INPUT": "a number of iterations that is no constant is named",
     "TEX_COORD": "Window in the world of an orthographic camera is named",
 }

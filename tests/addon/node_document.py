@@ -25,7 +25,7 @@ DIFFERENCES = ROOT / "tests" / "images" / "node_differences.json"
 
 
 # By what has no closure of its own: what is used.
-INSTEAD = {"BURLEY": "a random walk", "ASHIKHMIN_SHIRLEY": "GGX on rough surfaces"}
+INSTEAD = {"BURLEY": "a random walk"}
 
 
 class Versions:

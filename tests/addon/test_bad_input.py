@@ -178,6 +178,7 @@ def volume_and_displacement(scene):
     for kind, socket in (("VolumeScatter", "Volume"), ("Displacement", "Displacement")):
         made = nodes.new(f"ShaderNode{kind}")
         material.node_tree.links.new(made.outputs[0], output.inputs[socket])
+    material.displacement_method = "DISPLACEMENT"
     apart(add_square("Bad")).data.materials.append(material)
 
 
@@ -217,7 +218,7 @@ CASES = {
     unsupported_node: ("Material 'Bad material', node 'Ray Portal BSDF'",),
     volume_and_displacement: (
         "Material 'Bad material': volumes",
-        "Material 'Bad material': displacement",
+        "Material 'Bad material', node 'Material Output': displacement",
     ),
     volume_object: ("Object 'Bad': volumes",),
 }

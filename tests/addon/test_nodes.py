@@ -22,8 +22,8 @@ def add(tree, kind, name=None, **inputs):
     return node
 
 
-def to_output(tree, socket):
-    tree.links.new(socket, tree.nodes["Output"].inputs["Surface"])
+def to_output(tree, socket, name="Surface"):
+    tree.links.new(socket, tree.nodes["Output"].inputs[name])
 
 
 def flatten(tree):
@@ -220,6 +220,20 @@ def test_color_into_surface_emits(tree):
     name = graph["surface"]["link"][0]
     assert nodes[name]["type"] == "EMISSION"
     assert nodes[name]["inputs"]["Color"] == pytest.approx([0.1, 0.2, 0.3, 1.0])
+
+
+def test_displacement(tree):
+    to_output(tree, add(tree, "BsdfDiffuse").outputs[0])
+    assert "displacement" not in flatten(tree)[0]
+    displacement = add(tree, "Displacement", Scale=0.2)
+    tree.links.new(add(tree, "TexNoise").outputs["Fac"], displacement.inputs["Height"])
+    to_output(tree, displacement.outputs[0], "Displacement")
+    graph, nodes = flatten(tree)
+    assert graph["displacement"] == {"link": ["Displacement", "Displacement"]}
+    assert nodes["Displacement"]["inputs"]["Height"] == {"link": ["Noise Texture", "Fac"]}
+    assert nodes["Displacement"]["inputs"]["Normal"] is None
+    to_output(tree, add(tree, "Value").outputs[0], "Displacement")  # a constant moves all alike
+    assert "displacement" not in flatten(tree)[0]
 
 
 def test_output_for_cycles_wins_over_eevee(tree):

@@ -14,6 +14,7 @@ def test_unsupported_things_are_named(scene, export):
     for kind, socket in (("VolumeScatter", "Volume"), ("Displacement", "Displacement")):
         node = material.node_tree.nodes.new(f"ShaderNode{kind}")
         material.node_tree.links.new(node.outputs[0], output.inputs[socket])
+    material.displacement_method = "BOTH"
     square.data.materials.append(material)
     scene.world = bpy.data.worlds.new("Sky")
     scene.world.cycles.max_bounces = 3
@@ -22,9 +23,12 @@ def test_unsupported_things_are_named(scene, export):
     for expected in (
         "Object 'Volume': volumes",
         "Material 'Foggy': volumes",
-        "Material 'Foggy': displacement",
+        "Material 'Foggy', node 'Material Output': displacement of the surface itself",
     ):
         assert expected in text, text
+    material.displacement_method = "BUMP"
+    export()
+    assert "displacement" not in "\n".join(messages())
     assert any("Object 'Sky': the world's own limit" in text for text in messages("INFO"))
 
 

@@ -181,6 +181,8 @@ def test_wrong_words(builder):
         ({"nodes": [3]}, "nodes[0]"),
         ({"nodes": [{"name": "A"}]}, "nodes[0]"),
         ({"nodes": [], "surface": {"link": ["A"]}}, "surface"),
+        ({"nodes": [], "displacement": {"link": [1, "A"]}}, "displacement"),
+        ({"nodes": [], "displacement": 3}, "displacement"),
         (shader("BSDF_DIFFUSE", Color=[1, 2]), "nodes[Shader].inputs[Color]"),
         (shader("BSDF_DIFFUSE", Roughness=10**400), "nodes[Shader].inputs[Roughness]"),
         (shader("BSDF_DIFFUSE", Color={"link": 3}), "nodes[Shader].inputs[Color]"),

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from .closure_cells import GREY, RED, VIVID, WHITE, add, cell, each, grid, mix, shader
-from .closure_inputs import bent, bumped, colors, facing, painted, ramp
+from .closure_inputs import bent, bumped, colors, displaced, facing, painted, ramp
 
 NORMALS = (bumped, bent)
 SKIN = "RANDOM_WALK_SKIN"  # whose roughness is its own
@@ -25,7 +25,7 @@ def node_cells() -> None:
             IOR=(0.5, 1.01, 1.2, 2.5, 9.0),
             Anisotropy=(-0.5, 0.3, 0.8, 1.5),
             Radius=((0.0, 1.0, 0.3), (1.0, 1.0, 1.0), (-1.0, 0.5, 2.0)),
-            Color=(WHITE, VIVID, (1.3, 0.7, 0.4), colors, facing),
+            Color=(WHITE, VIVID, (1.3, 0.7, 0.4), colors),
             Scale=(0.0, ramp(-0.2, 1.0)),
             Normal=NORMALS,
         )
@@ -66,4 +66,5 @@ def add_subsurface() -> None:
     cell("Mix: wax, jade", mix(0.4, wax, jade))
     cell("Mix: wax, diffuse", mix(painted, wax, shader("BsdfDiffuse", Color=WHITE)))
     cell("Mix: wax, glass", mix(facing, wax, shader("BsdfGlass", Roughness=0.3)))
+    cell("Displaced wax", displaced(wax))
     cell("Add: wax, glossy", add(wax, shader("BsdfAnisotropic", Color=GREY, Roughness=0.3)))

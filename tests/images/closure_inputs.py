@@ -75,6 +75,17 @@ def bumped(t):
     return t.out("Bump", {"Height": _wave(t), "Strength": 0.6, "Distance": 0.02})
 
 
+def displaced(make):
+    """The shader, of a material that is displaced as well."""
+
+    def build(t):
+        inputs = {"Height": _wave(t), "Midlevel": 0.0, "Scale": 0.012}
+        t.displace(t.out("Displacement", inputs))
+        return make(t)
+
+    return build
+
+
 def bent(t):
     """A normal map of one colour, in object space."""
     inputs = {"Color": (0.75, 0.4, 0.65, 1.0), "Strength": 0.4}

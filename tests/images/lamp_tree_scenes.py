@@ -68,6 +68,59 @@ def dappled(t):
     return emission(t, noise, t.out("TexWave", rings, "Fac", wave_type="RINGS"))
 
 
+# --- What falls otherwise, or is measured ---------------------------------------------------------
+
+
+def ies(name: str, **inputs):
+    """An IES file, by the direction of the light or by another."""
+
+    def build(t):
+        from .ies_texts import TEXTS
+        from .node_cases_ies import text
+
+        made = t.node("TexIES", {"Strength": 0.05}, ies=text(name, TEXTS[name]))
+        for output, node in inputs.items():
+            t.tree.links.new(t.node(node).outputs[output], made.inputs["Vector"])
+        return emission(t, strength=made.outputs[0])
+
+    return build
+
+
+def falloff(output: str, strength=1.0, smooth=0.0):
+    return lambda t: emission(
+        t, strength=t.out("LightFalloff", {"Strength": strength, "Smooth": smooth}, output)
+    )
+
+
+def mixed_falloff(t):
+    """By the place, too."""
+    linear = t.out("LightFalloff", {"Strength": 0.6, "Smooth": 0.5}, "Linear")
+    return emission(t, t.out("TexNoise", {"Scale": 2.0}, "Color"), linear)
+
+
+def rings(t):
+    """Of light, by the distance."""
+    length = t.out("LightPath", output="Ray Length")
+    scaled = t.out("Math", {0: length, 1: 12.0}, operation="MULTIPLY")
+    wave = t.out("Math", {0: scaled}, operation="SINE")
+    return emission(t, strength=t.out("Math", {0: wave, 1: 1.2}, operation="ADD"))
+
+
+def sky(model: str):
+    """The air in a lamp, by the direction from its middle."""
+
+    def build(t):
+        settings = dict(sun_disc=False, sun_elevation=0.4, sun_rotation=1.0)
+        direction = t.out("NewGeometry", {}, "Incoming")
+        up = t.out("VectorMath", {0: direction, 1: (1.0, 1.0, -1.0)}, operation="MULTIPLY")
+        node = t.node("TexSky", sky_type=model, **settings)
+        if node.inputs and node.inputs[0].enabled:
+            t.tree.links.new(up, node.inputs[0])
+        return emission(t, node.outputs[0], 0.2)
+
+    return build
+
+
 COORDINATES = [
     *(("TexCoord", name) for name in ("Normal", "UV", "Object")),
     *(("NewGeometry", name) for name in ("Position", "Incoming")),
@@ -89,6 +142,25 @@ TREES = {
     "point_tinted": ("point_soft", tinted),
     "point_dappled": ("point_soft", dappled),
     "area_dappled": ("area", dappled),
+    "point_ies": ("point", ies("C quarter")),
+    "point_sphere_ies": ("point_sphere", ies("C whole")),
+    "spot_ies": ("spot", ies("C around")),
+    "area_ies": ("area", ies("C around")),
+    "area_ellipse_ies": ("area_ellipse", ies("C whole")),
+    "sun_60_ies": ("sun_60", ies("C whole")),
+    "point_soft_ies_b": ("point_soft", ies("B whole", Normal="TexCoord")),
+    **{f"{name}_falloff_linear": (name, falloff("Linear", 0.5)) for name in LAMPS},
+    "point_falloff_constant": ("point", falloff("Constant", 0.2)),
+    "point_soft_falloff_constant": ("point_soft", falloff("Constant", 0.2, 0.7)),
+    "point_sphere_falloff": ("point_sphere", falloff("Quadratic", 1.0, 2.0)),
+    "area_falloff_mixed": ("area", mixed_falloff),
+    "area_falloff_constant": ("area", falloff("Constant", 0.2)),
+    "spot_falloff_smooth": ("spot", falloff("Quadratic", 1.0, 5.0)),
+    "point_rings": ("point_soft", rings),
+    "area_rings": ("area", rings),
+    "sun_sky": ("sun_60", sky("MULTIPLE_SCATTERING")),
+    "area_sky": ("area", sky("HOSEK_WILKIE")),
+    "point_sky": ("point_soft", sky("PREETHAM")),
 }
 CASES = {
     **{

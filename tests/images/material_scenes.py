@@ -50,6 +50,17 @@ def bumped(t):
     return t.out("BsdfPrincipled", inputs)
 
 
+def displaced(t):
+    """As bump; and bumped, too."""
+    t.displace(t.out("Displacement", {"Height": _waves(t), "Midlevel": 0.0, "Scale": 0.02}))
+    normal = t.out("Bump", {"Height": _waves(t, "Y"), "Strength": 0.5, "Distance": 0.03})
+    shine = t.out("BsdfAnisotropic", {"Color": (0.9, 0.9, 0.8, 1.0), "Roughness": 0.4})
+    matt = t.out("BsdfDiffuse", {"Color": (0.4, 0.7, 0.8, 1.0), "Normal": normal})
+    leaf = t.out("BsdfTranslucent", {"Color": (0.6, 0.7, 0.3, 1.0)})
+    first = t.out("MixShader", {0: t.out("Fresnel", {"IOR": 1.6}), 1: matt, 2: shine})
+    return t.out("MixShader", {0: 0.3, 1: first, 2: leaf})
+
+
 def normal_mapped(t):
     inputs = {"A_Color": _picture(t, 5), "B_Color": (0.5, 0.5, 1.0, 1.0)}
     tilt = t.out("Mix", inputs, "Result_Color", data_type="RGBA")
@@ -153,6 +164,7 @@ SEEN = 17
 CASES = {
     "textured": textured,
     "bumped": bumped,
+    "displaced": displaced,
     "normal_mapped": normal_mapped,
     "mixed": mixed,
     "mirrored": mirrored,

@@ -45,6 +45,11 @@ class Tree:
         made.label = AROUND
         return made.outputs[0]
 
+    def displace(self, socket) -> None:
+        """Links it to the Displacement of the material."""
+        output = next(n for n in self.tree.nodes if n.type == "OUTPUT_MATERIAL")
+        self.tree.links.new(socket, output.inputs["Displacement"])
+
     def value(self, x: float):
         """The output of a Value node."""
         output = self.node("Value").outputs[0]
@@ -154,7 +159,9 @@ def add_cases() -> None:
     import bpy
 
     from . import (
+        node_cases_displacement,
         node_cases_groups,
+        node_cases_ies,
         node_cases_images,
         node_cases_places,
         node_cases_textures,
@@ -169,6 +176,8 @@ def add_cases() -> None:
     node_cases_groups.add_cases()
     node_cases_versions.add_cases()
     node_cases_places.sky_cases()
+    node_cases_displacement.add_cases()
+    node_cases_ies.add_cases()
     older = tuple(name for until, name in OLDER if bpy.app.version < until)
     for name in [n for n in CASES if n.startswith(older)]:
         del CASES[name]

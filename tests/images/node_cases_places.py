@@ -6,6 +6,15 @@ from __future__ import annotations
 from .node_cases import CASES, case, enum_items, fill
 
 
+def normal_of(t, socket):
+    """What a normal does, where it can be seen: its components, from 0 to 1."""
+    return t.around(
+        "VectorMath",
+        {0: socket, 1: (0.5, 0.5, 0.5), 2: (0.5, 0.5, 0.5)},
+        operation="MULTIPLY_ADD",
+    )
+
+
 def add_cases() -> None:
     vector_cases()
     input_cases()
@@ -177,14 +186,6 @@ def attribute_cases() -> None:
 
 def normal_cases() -> None:
     import bpy
-
-    def normal_of(t, socket):
-        """What a normal does, where it can be seen: its components, from 0 to 1."""
-        return t.around(
-            "VectorMath",
-            {0: socket, 1: (0.5, 0.5, 0.5), 2: (0.5, 0.5, 0.5)},
-            operation="MULTIPLY_ADD",
-        )
 
     for space in enum_items("NormalMap", "space"):
         for strength in (1.0, 0.4, 1.5):

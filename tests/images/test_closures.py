@@ -10,7 +10,8 @@ from .statistics import block_means, compare
 
 CELL = closure_grid.CELL
 TOLERANCE = 0.01  # of each block's mean
-ERROR, MEDIAN = 0.005, 0.002  # its standard error: of the noisiest, and of most
+# Its standard error: of the noisiest (what has been below a surface), and of most.
+ERROR, MEDIAN = 0.0075, 0.002
 FIRM = 0.0025  # with such an error, two per cent do not pass
 ROUNDING = 2e-4  # what passes straight through is nearly without noise
 DARK = 0.1  # the surroundings have 0.5: what is darker is compared in hundredths of this

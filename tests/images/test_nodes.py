@@ -91,9 +91,14 @@ def test_differences_are_as_documented(measured):
     assert [kind for kind, off in largest.items() if not off <= stored.get(kind, 0.0)] == []
 
 
-def test_nothing_is_said_but_of_missing_pictures(sheets):
+def test_nothing_is_said_but_of_what_is_missing(sheets):
     said = [entry for sheet in sheets for entry in sheet["said"] if entry[0] != "INFO"]
     missing = {"image missing", "sequence 0 1 0 False", "sequence 100 1 50 False"}
     missing |= {f"tiles True False {name}" for name in ("Closest", "Linear")}
-    assert sorted(entry[1] for entry in said) == sorted(missing)
-    assert all("missing" in entry[3] for entry in said)
+    broken = {name for sheet in sheets for name in sheet["names"] if name.startswith("ies broken")}
+    assert len(broken) > 8
+    assert sorted(entry[1] for entry in said) == sorted(missing | broken)
+    assert all("missing" in entry[3] for entry in said if entry[1] in missing)
+    files = [entry[3] for entry in said if entry[1] in broken]
+    assert all("the IES file is left out: " in message for message in files)
+    assert len(set(files)) > 6  # each says what is wrong

@@ -115,8 +115,13 @@ ShadingPoint Surfaces::point(const SurfaceInteraction& hit, vec3 view) const {
   const Mesh* mesh = shape.mesh();
   const mat3 linear(point.object->to_world);
   if (!mesh) {
+    const RoundShape::Place place = shape.round()->place(hit.primitive, hit.barycentric.x);
     point.on_curve = shape.round()->curves();
-    point.edge_u = linear * shape.round()->place(hit.primitive, hit.barycentric.x).along;
+    point.on_ball = !point.on_curve;
+    point.edge_u = linear * place.along;
+    if (point.on_ball) {
+      point.edge_v = vec3(point.object->to_world * vec4(place.center, 1.0f));
+    }
   } else if (program.edges) {
     const auto vertex = [&](int k) { return mesh->positions()[point.triangle.vertices[k]]; };
     point.edge_u = linear * (vertex(1) - vertex(0));

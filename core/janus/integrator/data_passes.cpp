@@ -117,7 +117,7 @@ class DataPasses final : public PassIntegrator {
         see_first(*hit, sample);
       }
       if (!done && alpha >= data_.alpha_threshold) {
-        see_surface(*hit, shading.bsdf.view(hit->ng, hit->ns), wo, sample);
+        see_surface(*hit, shading, wo, sample);
         done = true;
       }
       const float share = average(through * (Rgb(1.0f) - shading.transparency));
@@ -127,7 +127,7 @@ class DataPasses final : public PassIntegrator {
         ++counters.camera_rays;
         add(sample, DataPass::AmbientOcclusion,
             through * (Rgb(1.0f) - shading.transparency) *
-                open_sky(*hit, shading.bsdf.view(hit->ng, hit->ns), wo, sampler.next_2d()));
+                open_sky(*hit, shading, wo, sampler.next_2d()));
       }
       see_mattes(*hit, average(through) * alpha, sample);
       aov_share.cross(shading);
@@ -165,9 +165,10 @@ class DataPasses final : public PassIntegrator {
     }
   }
 
-  void see_surface(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo,
+  void see_surface(const SurfaceInteraction& hit, const ShadingResult& shading, vec3 wo,
                    DataSample& sample) const {
-    sample.set(DataPass::Normal, average_normal(bsdf, facing(hit.ns, hit, wo), wo));
+    const BsdfView bsdf = shading.bsdf.view(hit.ng, shading.ns);
+    sample.set(DataPass::Normal, average_normal(bsdf, facing(shading.ns, hit, wo), wo));
     const Shape& shape = *context_.scene().shapes[context_.scene().instances[hit.instance].shape];
     if (const AttributeDesc* uv = shape.attribute("uv:"); uv && choice_.wants(DataPass::Uv)) {
       ShadingPoint point{};
@@ -183,8 +184,9 @@ class DataPasses final : public PassIntegrator {
   }
 
   // What a ray over the surface, drawn by the cosine, meets of the surroundings: white is nothing.
-  Rgb open_sky(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, vec2 u) const {
-    const Frame frame(diffuse_normal(bsdf, facing(hit.ns, hit, wo), wo));
+  Rgb open_sky(const SurfaceInteraction& hit, const ShadingResult& shading, vec3 wo, vec2 u) const {
+    const BsdfView bsdf = shading.bsdf.view(hit.ng, shading.ns);
+    const Frame frame(diffuse_normal(bsdf, facing(shading.ns, hit, wo), wo));
     const vec3 d = frame.to_world(square_to_cosine_hemisphere(u));
     const Bounds& all = context_.scene().accel->bounds();
     const float beyond = glm::length(hit.p - all.center()) + 2.0f * all.radius();
@@ -228,12 +230,12 @@ class DataPasses final : public PassIntegrator {
       }
       const vec3 wo = -ray.direction;
       const ShadingResult shading = context_.scene().shade(*hit, wo);
-      const BsdfView bsdf = shading.bsdf.view(hit->ng, hit->ns);
+      const BsdfView bsdf = shading.bsdf.view(hit->ng, shading.ns);
       const float length = glm::length(hit->p - ray.origin);
       add(sample, DataPass::DenoisingDepth, vec3(average(share) * length));
       add(sample, DataPass::DenoisingAlbedo, share * shading.emission);
       const SurfaceFeatures found =
-          surface_features(bsdf, shading.transparency, facing(hit->ns, *hit, wo), wo);
+          surface_features(bsdf, shading.transparency, facing(shading.ns, *hit, wo), wo);
       if (found.rough) {
         add(sample, DataPass::DenoisingAlbedo, share * found.albedo);
         sample.set(DataPass::DenoisingNormal, vec3(view_.from_world * vec4(found.normal, 0.0f)));

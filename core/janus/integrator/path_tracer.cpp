@@ -249,7 +249,7 @@ class PathTracer final : public PassIntegrator {
       if (walk.edges + 1 > settings_.walk.max_edges || beyond_caps(walk.bounces)) {
         return sum;
       }
-      BsdfView bsdf = shading.bsdf.view(hit->ng, hit->ns);
+      BsdfView bsdf = shading.bsdf.view(hit->ng, shading.ns);
       if (settings_.layers.colors && walk.edges == 1) {
         settings_.layers.add_color(bsdf, wo, walk.beta, layers);
       }
@@ -259,7 +259,7 @@ class PathTracer final : public PassIntegrator {
         if (!come_up(*sample, walk, sampler, counters, *hit, shading, wo)) {
           return sum;
         }
-        bsdf = shading.bsdf.view(hit->ng, hit->ns);
+        bsdf = shading.bsdf.view(hit->ng, shading.ns);
         sample = look_and_scatter(*hit, bsdf, wo, walk, sampler, counters, sum);
       }
       if (!sample) {

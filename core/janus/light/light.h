@@ -150,11 +150,11 @@ class Light {
     return sample.origin;
   }
 
-  // What a node tree makes of the light that leaves z_0 at `endpoint` in `direction`, as a factor.
-  // The radiance of sample_illumination() and intersect() has it; the weight of sample_emission(),
-  // which does not know the endpoint, has not.
-  virtual Rgb tint(vec3 endpoint, vec3 direction) const {
-    (void)endpoint, (void)direction;
+  // What a node tree makes of the light that leaves z_0 at `endpoint` in `direction` for a z_1 at
+  // `distance`, as a factor. The radiance of sample_illumination() and intersect() has it; the
+  // weight of sample_emission(), which does not know these, has not.
+  virtual Rgb tint(vec3 endpoint, vec3 direction, float distance) const {
+    (void)endpoint, (void)direction, (void)distance;
     return Rgb(1.0f);
   }
 

@@ -40,7 +40,8 @@ class ProgramLight final : public Light {
     size_ = vec2(desc.size, desc.shape == AreaShape::Rectangle || desc.shape == AreaShape::Ellipse
                                 ? desc.size_y
                                 : desc.size);
-    brightness_ = measure();
+    // Of a light that falls otherwise than lights do, as seen from around what is in the picture.
+    brightness_ = measure(std::max(glm::length(center_ - vec3(camera.to_world[3])), 1e-3f));
   }
 
   float power() const override { return brightness_ * lamp_->power(); }
@@ -67,7 +68,7 @@ class ProgramLight final : public Light {
                                                         vec2 u) const override {
     auto sample = lamp_->sample_illumination(receiver, primitive, u);
     if (sample) {
-      sample->radiance *= tint(sample->target, -sample->wi);
+      sample->radiance *= tint(sample->target, -sample->wi, std::sqrt(sample->distance2));
       if (is_black(sample->radiance)) {
         sample.reset();
       }
@@ -83,7 +84,7 @@ class ProgramLight final : public Light {
   std::optional<LightHit> intersect(const Ray& ray) const override {
     auto hit = lamp_->intersect(ray);
     if (hit) {
-      hit->radiance *= tint(ray.origin + hit->t * ray.direction, -ray.direction);
+      hit->radiance *= tint(ray.origin + hit->t * ray.direction, -ray.direction, hit->t);
       if (is_black(hit->radiance)) {
         hit.reset();
       }
@@ -93,7 +94,7 @@ class ProgramLight final : public Light {
 
   // Cycles' coordinates of lamps (intern/cycles/kernel/light): their normal is that of the surface,
   // or looks along the ray where the lamp has none of its own.
-  Rgb tint(vec3 endpoint, vec3 direction) const override {
+  Rgb tint(vec3 endpoint, vec3 direction, float distance) const override {
     ShadingPoint point{};
     // A sun is where its rays point to, as seen from the origin.
     point.p = infinite() ? direction : endpoint;
@@ -111,6 +112,7 @@ class ProgramLight final : public Light {
     point.barycentric = vec2(uv.y, 1.0f - uv.x - uv.y);
     point.object = &object_;
     point.footprint = 1e-2f;
+    point.ray_length = infinite() ? kInfinity : distance;
     ShadingResult result;
     program_.run(point, result);
     return is_finite(result.emission) ? glm::max(result.emission, Rgb(0.0f)) : Rgb(0.0f);
@@ -118,14 +120,14 @@ class ProgramLight final : public Light {
 
  private:
   // Over the rays of the lamp, as many as carry the same power.
-  float measure() const {
+  float measure(float usual_distance) const {
     double sum = 0.0, whole = 0.0;
     for (int i = 0; i < kProbes; ++i) {
       Sampler sampler(0, Stream::Pilot, 0, static_cast<uint64_t>(i));
       const vec2 u = sampler.next_2d();
       if (const auto s = lamp_->sample_emission(u, sampler.next_2d())) {
         whole += luminance(s->weight);
-        sum += luminance(s->weight * tint(s->origin, s->direction));
+        sum += luminance(s->weight * tint(s->origin, s->direction, usual_distance));
       }
     }
     const double mean = whole > 0.0 ? sum / whole : 0.0;

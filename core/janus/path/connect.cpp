@@ -8,7 +8,7 @@ namespace janus {
 LightVertex::LightVertex(const PathVertex& v)
     : p(v.hit.p),
       ng(v.hit.ng),
-      ns(v.hit.ns),
+      ns(v.shading.ns),
       offset(v.hit.offset),
       wi(v.back),
       beta(v.beta),

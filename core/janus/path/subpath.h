@@ -102,7 +102,7 @@ void trace_light_subpath(const Scene& scene, const Mis& mis, const WalkSettings&
   if (!endpoint) {
     return;
   }
-  v.beta *= light.tint(*endpoint, emission->direction);
+  v.beta *= light.tint(*endpoint, emission->direction, glm::length(v.hit.p - *endpoint));
   if (*endpoint != emission->origin) {
     v.beta *= scene.transmittance(*endpoint, emission->origin, first_type(v.segment),
                                   settings.max_crossings - v.crossings, Scene::End::B);

@@ -70,7 +70,7 @@ struct PathVertex {
   Passage passage;       // of a SubsurfaceEntry or SubsurfaceExit
 
   BsdfView bsdf() const {
-    return shading.bsdf.view(hit.ng, hit.ns, reshading.program ? &reshading : nullptr);
+    return shading.bsdf.view(hit.ng, shading.ns, reshading.program ? &reshading : nullptr);
   }
 
   // The labels that a vertex of a light subpath may have; `delta`: it scatters by a delta.

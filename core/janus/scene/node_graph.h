@@ -34,7 +34,8 @@ struct Node {
 
 struct NodeGraph {
   std::vector<Node> nodes;
-  std::optional<NodeLink> surface;  // what is linked to the output node's Surface
+  // What is linked to the output node's Surface, and to its Displacement.
+  std::optional<NodeLink> surface, displacement;
 
   const Node* find(const std::string& name) const {
     for (const Node& node : nodes) {

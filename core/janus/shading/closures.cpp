@@ -81,6 +81,7 @@ void add(const ClosureArguments& a, ShadingResult& out) {
 
 namespace glossy {
 enum Input { Color, Roughness, Anisotropy, Rotation, Tangent };
+constexpr int kAshikhminShirley = 3;  // among its distributions
 constexpr SocketDecl kInputs[] = {{"Color", SocketType::Color, 0.8f},
                                   {"Roughness", Float, 0.5f},
                                   {"Anisotropy", Float, 0.0f},
@@ -102,16 +103,12 @@ FacetWidths widths(const ClosureArguments& a) {
 
 void add(const ClosureArguments& a, ShadingResult& out) {
   const Rgb color = a.positive_color(Color);
+  if (a.setting() == kAshikhminShirley) {
+    add_lobe(a, ashikhmin_shirley_lobe(a.share() * color, widths(a)), out);
+    return;
+  }
   const Lobe lobe = glossy_lobe(a.share() * color, widths(a), a.multiscatter(), color);
   add_lobe(a, of_distribution(a, lobe), out);
-}
-
-// Where it matters.
-void check(const NodeReader& node) {
-  if (node.property("distribution", "") == "ASHIKHMIN_SHIRLEY" &&
-      (node.link("Roughness") || node.number("Roughness") > 0.0f)) {
-    node.warn("the distribution ASHIKHMIN_SHIRLEY is not supported yet; GGX is used");
-  }
 }
 }  // namespace glossy
 
@@ -272,8 +269,7 @@ void check(const NodeReader& node) {
 }  // namespace
 
 const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
-    kGlossyClosure{
-        &glossy::add, {.lobes = 1, .anisotropy = {glossy::Anisotropy, 0.0f}}, {}, &glossy::check},
+    kGlossyClosure{&glossy::add, {.lobes = 1, .anisotropy = {glossy::Anisotropy, 0.0f}}},
     kGlassClosure{&glass::add, {.transmits = true, .lobes = 1}},
     kRefractionClosure{&refraction::add, {.transmits = true, .lobes = 1}},
     kTranslucentClosure{&translucent::add, {.transmits = true, .lobes = 1}},

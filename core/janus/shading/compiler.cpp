@@ -26,6 +26,7 @@ class ClosureTree {
 
   Program compile() {
     if (graph_.surface) {
+      compiler_.bump_surface();
       closure(*graph_.surface, compiler_.constant(vec3(1.0f), SocketType::Float));
     }
     return compiler_.finish();
@@ -112,6 +113,7 @@ Program compile_aovs(const NodeGraph& graph, const std::string& material, const 
                      std::vector<std::string>& names, Diagnostics& diagnostics, SeenTree seen) {
   GraphCompiler compiler(graph, material, images, diagnostics, seen);
   const NodeDecl& decl = *find_node_type("OUTPUT_AOV");
+  compiler.bump_surface();
   for (const Node& node : graph.nodes) {
     if (node.type != decl.type) {
       continue;

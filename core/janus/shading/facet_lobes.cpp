@@ -2,6 +2,7 @@
 #include "janus/shading/facet_lobes.h"
 
 #include "janus/shading/albedo.h"
+#include "janus/shading/ashikhmin_shirley.h"
 #include "janus/shading/fresnel.h"
 #include "janus/shading/microfacet.h"
 #include "janus/shading/sides.h"
@@ -227,8 +228,10 @@ LobeEval evaluate_facets(const Lobe& lobe, vec3 ng, const Directions& d) {
   }
   const vec3 n = seen_normal(lobe, ng, d.wo, d.wo_ng);
   const vec3 n_light = seen_normal(lobe, ng, d.wi, d.wi_ng);
-  LobeEval out = d.same_side() ? evaluate_reflection(lobe, d, n, n_light)
-                               : evaluate_refraction(lobe, d, n, n_light);
+  LobeEval out = lobe.type == LobeType::AshikhminShirley
+                     ? evaluate_ashikhmin_shirley(lobe, d, n, n_light)
+                 : d.same_side() ? evaluate_reflection(lobe, d, n, n_light)
+                                 : evaluate_refraction(lobe, d, n, n_light);
   if (needs_defence(lobe, ng)) {
     const float share = defensive_share(lobe, !d.same_side());
     out.pdf_importance += kDefensive * (share * std::abs(d.wo_ng) * kInvPi - out.pdf_importance);
@@ -251,7 +254,8 @@ std::optional<vec3> sample_facets(const Lobe& lobe, vec3 ng, vec3 from, float u_
   if (dot(from, n) <= 0.0f) {
     return std::nullopt;
   }
-  const vec3 h = Facets(lobe, n).sample_visible(from, u);
+  const vec3 h = lobe.type == LobeType::AshikhminShirley ? sample_half_vector(lobe, n, u)
+                                                         : Facets(lobe, n).sample_visible(from, u);
   std::optional<vec3> to = reflect_about(from, h);
   bool transmitted = false;
   if (transmits(lobe)) {

@@ -102,8 +102,10 @@ Value GraphCompiler::emit(const Operation& operation, const std::vector<Value>& 
   if (constants) {
     return constant(fold(operation, operands, data), operation.result);
   }
+  // The point before it is bumped has another normal, and is the same else.
+  const bool here = at == kUnbumped && operation.dependence == Dependence::None;
   const auto key = std::tuple(operation.kernel, indices, data,
-                              operation.reads_point ? at : static_cast<uint16_t>(0));
+                              operation.reads_point && !here ? at : static_cast<uint16_t>(0));
   const auto found = equal_.find(key);
   if (found != equal_.end()) {
     return found->second;
@@ -134,6 +136,8 @@ Value GraphCompiler::implicit(const SocketDecl& socket, uint16_t at) {
       return emit(kOnCurve, {}, 0, at);
     case Implicit::Tangent:
       return emit(kRadialTangent[2], {emit(kAttribute, {}, attribute("generated"), at)}, 0, at);
+    case Implicit::Beam:
+      return emit(kBeam, {}, 0, at);
     case Implicit::Strand:
     case Implicit::Value:
       break;

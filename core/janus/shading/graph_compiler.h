@@ -49,6 +49,10 @@ class GraphCompiler {
   // Compiles a node and all that it needs, deepest first.
   void require(const Node& node, uint16_t at);
 
+  // Bumps the surface by what is linked to the output's Displacement. To be called first: all other
+  // values see the new normal.
+  void bump_surface();
+
   // A closure of the program.
   void closure(const NodeReader& reader, Value share);
 
@@ -112,7 +116,9 @@ class GraphCompiler {
   std::vector<Step> steps_;
   std::vector<ClosureStep> closures_;
   std::vector<AovStep> aovs_;
-  int lobes_ = 0;  // at most
+  std::optional<Value> bumped_normal_;
+  size_t bump_steps_ = 0;  // the first ones, which make it
+  int lobes_ = 0;          // at most
   std::map<std::tuple<uint32_t, uint32_t, uint32_t, SocketType>, Value> constants_;
   std::map<std::tuple<Kernel, std::vector<uint32_t>, uint32_t, uint16_t>, Value> equal_;
   std::map<NodeAt, std::map<std::string, Value, std::less<>>> outputs_;

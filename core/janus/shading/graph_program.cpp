@@ -6,8 +6,56 @@
 
 #include "janus/shading/closures.h"
 #include "janus/shading/graph_compiler.h"
+#include "janus/shading/nodes/bump.h"
+#include "janus/shading/point_reads.h"
 
 namespace janus {
+
+// --- Displacement as bump ------------------------------------------------------------------------
+
+namespace {
+
+constexpr Operation kHeight = pure<[](vec3 displacement, vec3 n) { return dot(displacement, n); }>;
+
+}  // namespace
+
+// As Cycles does where Displacement is Bump Only: with the settings of a new Bump node, and three
+// copies of the tree for the three points.
+void GraphCompiler::bump_surface() {
+  const auto node = graph_.displacement ? nodes_.find(graph_.displacement->node) : nodes_.end();
+  if (node == nodes_.end()) {
+    if (graph_.displacement) {
+      diagnostics_.push_back({Severity::Warning, "", material_, graph_.displacement->node,
+                              "the displacement is linked to it, and it is not there"});
+    }
+    return;
+  }
+  const Value one = constant(vec3(1.0f), SocketType::Float);
+  const Value width = constant(vec3(kBumpWidth), SocketType::Float);
+  const Value normal = emit(kFacingNormal, {}, 0, kUnbumped);
+  std::vector<Value> operands = {one, one, width};
+  for (uint16_t at = kUnbumped; at < kUnbumped + 3; ++at) {
+    require(*node->second, at);
+    const auto& outputs = outputs_[{node->second, at}];
+    const auto displacement = outputs.find(graph_.displacement->output);
+    if (displacement == outputs.end()) {
+      if (find_node_type(node->second->type)) {  // or it has been named already
+        warn(diagnostics_, material_, *node->second,
+             "the output '" + graph_.displacement->output +
+                 "' is not supported yet; the surface is not displaced");
+      }
+      return;
+    }
+    operands.push_back(emit(kHeight, {displacement->second, normal}, 0, at));
+  }
+  if (operands[3].index == operands[4].index && operands[3].index == operands[5].index) {
+    return;  // the same everywhere
+  }
+  operands.push_back(normal);
+  bumped_normal_ = emit(kBump, operands, 0, kUnbumped);
+  bump_steps_ = steps_.size();
+  program_.edges = true;
+}
 
 // --- Closures ------------------------------------------------------------------------------------
 
@@ -155,6 +203,9 @@ void GraphCompiler::for_each_result(Read&& read) const {
     read(aov.color);
     read(aov.value);
   }
+  if (bumped_normal_) {
+    read(*bumped_normal_);
+  }
 }
 
 void GraphCompiler::mark_used(std::vector<bool>& used) const {
@@ -232,12 +283,17 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
     program_.instructions.push_back({step.operation.kernel, first, step.data,
                                      static_cast<uint16_t>(place[step.result.index]), step.at});
     program_.dependence = std::max(program_.dependence, step.operation.dependence);
+    if (s < bump_steps_) {
+      program_.bump_instructions = static_cast<uint32_t>(program_.instructions.size());
+    }
   }
+  program_.bumped_normal = bumped_normal_ ? static_cast<uint16_t>(place[bumped_normal_->index]) : 0;
   if (top > kMaxRegisters) {
     diagnostics_.push_back({Severity::Warning, "", material_, "",
                             "the shader is too large; what varies over the surface is left out"});
     program_.instructions.clear();
     program_.constants.clear();
+    program_.bump_instructions = 0;
     program_.varying_emission = program_.varying_transparency = program_.varying_holdout = false;
     return;
   }

@@ -90,6 +90,16 @@ Lobe glossy_lobe(Rgb weight, FacetWidths alpha, bool multiscatter, Rgb color) {
   return out;
 }
 
+Lobe ashikhmin_shirley_lobe(Rgb weight, FacetWidths alpha) {
+  constexpr float kMirror = 1e-4f;  // Cycles' threshold
+  if (std::max(alpha.x, alpha.y) <= kMirror) {
+    return glossy_lobe(weight, 0.0f);
+  }
+  alpha.x = std::max(alpha.x, kMirror);
+  alpha.y = std::max(alpha.y, kMirror);
+  return facets_lobe(LobeType::AshikhminShirley, weight, alpha, false);
+}
+
 Lobe metal_lobe(Rgb weight, Rgb f0, FacetWidths alpha, bool multiscatter, Rgb edge) {
   Lobe out = facets_lobe(LobeType::Metal, weight, alpha, multiscatter);
   out.color = glm::clamp(f0, 0.0f, 1.0f);

@@ -23,13 +23,14 @@ enum class LobeType : uint8_t {
   ChiangRest,        // and TT, TRT, and all after
   GlossyToon,        // a cone around the mirror direction
   // Of facets, by GGX or Beckmann; the first ones only reflect.
-  Glossy,      // without Fresnel term
-  Metal,       // Schlick's Fresnel term with a tint of the edge (F82)
-  Conductor,   // Fresnel's own for a metal
-  Specular,    // a dielectric's, moved to another F0
-  Coat,        // a dielectric's
-  Glass,       // reflection and refraction at a dielectric
-  Refraction,  // refraction alone, without Fresnel term
+  Glossy,            // without Fresnel term
+  AshikhminShirley,  // the same of a model of its own. See ashikhmin_shirley.h.
+  Metal,             // Schlick's Fresnel term with a tint of the edge (F82)
+  Conductor,         // Fresnel's own for a metal
+  Specular,          // a dielectric's, moved to another F0
+  Coat,              // a dielectric's
+  Glass,             // reflection and refraction at a dielectric
+  Refraction,        // refraction alone, without Fresnel term
 };
 
 // One term of a Bsdf: plain data in world space, without anything that depends on the view, so that
@@ -112,6 +113,8 @@ Lobe velvet_lobe(Rgb weight, float sigma);
 Lobe toon_lobe(bool glossy, Rgb weight, float size, float smooth);
 // `color`: what multiple bounces between the facets are tinted with.
 Lobe glossy_lobe(Rgb weight, FacetWidths alpha, bool multiscatter = false, Rgb color = Rgb(1.0f));
+// Where its widths are a mirror's, it is one.
+Lobe ashikhmin_shirley_lobe(Rgb weight, FacetWidths alpha);
 // `edge`: tint of what Schlick's term has at 82 degrees (Kutz et al. 2021).
 Lobe metal_lobe(Rgb weight, Rgb f0, FacetWidths alpha, bool multiscatter = false,
                 Rgb edge = Rgb(1.0f));

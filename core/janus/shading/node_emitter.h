@@ -6,8 +6,10 @@
 // "attribute:NAME", "color:" (the active colours), "generated", "normal" (of the vertices),
 // "tangent:NAME" (of a UV map; its handedness is the fourth channel), "tangent_sign:NAME" (that
 // alone), "pointiness", "random_per_island", "curve_intercept", "curve_length", "curve_radius" (of
-// curves). Of an instance: "object:NAME", "instancer:NAME"
-// (properties), "dupli_generated", "dupli_uv" (of what it was made from).
+// curves), "point_radius" (of points). Of an instance: "object:NAME", "instancer:NAME"
+// (properties), "dupli_generated", "dupli_uv" (of what it was made from), and of what a particle
+// shows "particle:times" (its index and age), "particle:lifetime", "particle:size",
+// "particle:location", "particle:velocity", "particle:angular_velocity".
 #pragma once
 
 #include <initializer_list>
@@ -42,9 +44,13 @@ class NodeEmitter {
   float filter_width();
   std::optional<uint16_t> shifted_points();
   // Is the node itself looked at from a shifted point?
-  bool shifted() const { return at_ != 0; }
+  bool shifted() const { return at_ != 0 && at_ != kUnbumped; }
+  // Does it displace the surface?
+  bool displaces() const { return at_ >= kUnbumped; }
   // For what Cycles does not look for at shifted points: emits at the point itself.
-  NodeEmitter unshifted() const { return {compiler_, reader_, 0}; }
+  NodeEmitter unshifted() const {
+    return {compiler_, reader_, displaces() ? kUnbumped : uint16_t{0}};
+  }
   bool linked(std::string_view identifier) const { return reader_.link(identifier) != nullptr; }
   // Of what the tree is, and who looks.
   SeenTree seen() const;

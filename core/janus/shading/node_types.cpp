@@ -12,10 +12,11 @@ std::span<const NodeDecl> node_types() {
   static const std::vector<NodeDecl> table = [] {
     std::vector<NodeDecl> all;
     for (const auto family :
-         {closure_nodes(), math_nodes(), mix_nodes(), color_nodes(), curve_nodes(),
-          blackbody_nodes(), vector_nodes(), input_nodes(), geometry_nodes(), texture_nodes(),
-          noise_nodes(), voronoi_nodes(), gabor_nodes(), radial_tiling_nodes(), wavelength_nodes(),
-          pattern_nodes(), sky_nodes(), normal_nodes()}) {
+         {closure_nodes(),  math_nodes(),          mix_nodes(),          color_nodes(),
+          curve_nodes(),    blackbody_nodes(),     vector_nodes(),       input_nodes(),
+          geometry_nodes(), texture_nodes(),       noise_nodes(),        voronoi_nodes(),
+          gabor_nodes(),    radial_tiling_nodes(), wavelength_nodes(),   pattern_nodes(),
+          sky_nodes(),      normal_nodes(),        displacement_nodes(), ies_nodes()}) {
       all.insert(all.end(), family.begin(), family.end());
     }
     return all;

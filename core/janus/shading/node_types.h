@@ -34,6 +34,7 @@ enum class Implicit {
   Beside,     // the same, but elsewhere the second edge
   OnCurve,    // 1 on curves, else 0
   Tangent,    // around the object's Z axis, where the closure has facets of two widths
+  Beam,       // in the space of the object, the direction to who looks: of lamps, their light's
   Strand,     // a number of the curve's own, in [0, 1]; elsewhere the default
 };
 

@@ -96,7 +96,8 @@ using MakeOf = Make<F, decltype(+F)>;
 // A function of its operands (and of `data`): folded where they are constants.
 template <auto F>
 inline constexpr Operation pure = detail::MakeOf<F>::operation(false, Dependence::None);
-// Of the point too, but not of the side or direction from which it is looked at.
+// Of the point too, but not of the side or direction from which it is looked at, nor of its shading
+// normal.
 template <auto F>
 inline constexpr Operation at_point = detail::MakeOf<F>::operation(true, Dependence::None);
 template <auto F>

@@ -14,6 +14,10 @@ inline vec3 read_object_point(const Context& c) {
   return vec3(c.point.object->to_object * vec4(c.point.p, 1.0f));
 }
 inline vec3 read_normal(const Context& c) { return c.point.facing(c.point.ns); }
+// As Cycles turns normals: the space may be stretched.
+inline vec3 read_beam(const Context& c) {
+  return safe_normalize(glm::transpose(mat3(c.point.object->to_world)) * c.point.view);
+}
 inline vec3 read_attribute(const Context& c) { return vec3(c.point.attribute(c.data)); }
 
 // Of the triangle, or of the lamp.
@@ -57,6 +61,7 @@ inline constexpr Operation kStrand = at_point<&read_strand>;
 inline constexpr Operation kPosition = at_point<&read_position>;
 inline constexpr Operation kObjectPoint = at_point<&read_object_point>;
 inline constexpr Operation kFacingNormal = by_side<&read_normal>;
+inline constexpr Operation kBeam = by_view<&read_beam>;
 inline constexpr Operation kAttribute = at_point<&read_attribute>;  // `data`: its slot
 inline constexpr Operation kParametric = at_point<&read_parametric>;
 

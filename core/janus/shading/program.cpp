@@ -12,9 +12,17 @@ Program::~Program() = default;
 Program::Program(Program&&) noexcept = default;
 Program& Program::operator=(Program&&) noexcept = default;
 
-void Program::execute(RunState state) const {
-  for (const Instruction& i : instructions) {
-    i.kernel(state, i);
+void Program::execute(RunState state, size_t first, size_t end) const {
+  for (size_t i = first; i < end; ++i) {
+    instructions[i].kernel(state, instructions[i]);
+  }
+}
+
+void Program::place_beside(ShadingPoint* points) const {
+  ShadingPoint* next = points + 1;
+  for (const float width : filter_widths) {
+    *next++ = points->shifted(0, width);
+    *next++ = points->shifted(1, width);
   }
 }
 
@@ -22,25 +30,45 @@ void Program::fill(const ShadingPoint& point, float* r) const {
   std::copy(constants.begin(), constants.end(), r);
   if (!filter_widths.empty()) {
     ShadingPoint points[1 + 2 * kMaxFilterWidths];
-    ShadingPoint* next = points;
-    *next++ = point;
-    for (const float width : filter_widths) {
-      *next++ = point.shifted(0, width);
-      *next++ = point.shifted(1, width);
-    }
-    execute({r, points, *this});
+    points[0] = point;
+    place_beside(points);
+    execute({r, points, *this}, 0, instructions.size());
   } else {
-    execute({r, &point, *this});
+    execute({r, &point, *this}, 0, instructions.size());
   }
 }
 
+void Program::fill_bumped(ShadingPoint& point, float* r) const {
+  std::copy(constants.begin(), constants.end(), r);
+  ShadingPoint points[kUnbumped + 3];
+  points[0] = points[kUnbumped] = point;
+  points[kUnbumped + 1] = point.shifted(0, kBumpWidth);
+  points[kUnbumped + 2] = point.shifted(1, kBumpWidth);
+  execute({r, points, *this}, 0, bump_instructions);
+  const float* n = r + bumped_normal;
+  point.ns = points[0].ns = point.facing(vec3(n[0], n[1], n[2]));
+  place_beside(points);
+  execute({r, points, *this}, bump_instructions, instructions.size());
+}
+
 void Program::run(const ShadingPoint& point, ShadingResult& result) const {
-  place(point.ns, result);
   if (constant()) {
+    place(point.ns, result);
     return;
   }
   float r[kMaxRegisters];
-  fill(point, r);
+  if (bump_instructions != 0) {
+    ShadingPoint bumped = point;
+    fill_bumped(bumped, r);
+    close(bumped, r, result);
+  } else {
+    fill(point, r);
+    close(point, r, result);
+  }
+}
+
+void Program::close(const ShadingPoint& point, const float* r, ShadingResult& result) const {
+  place(point.ns, result);
   const int placed = result.bsdf.size();
   for (const Closure& closure : closures) {
     if (!(r[closure.share] > 0.0f)) {  // or not a number
@@ -59,6 +87,7 @@ bool Program::emits_like(const Program& other) const {
   const auto same = [](const auto& a, const auto& b) { return *a == *b; };
   return emission == other.emission && constants == other.constants && operands == other.operands &&
          instructions == other.instructions && closures == other.closures &&
+         bump_instructions == other.bump_instructions && bumped_normal == other.bumped_normal &&
          tables == other.tables && attributes == other.attributes &&
          filter_widths == other.filter_widths && std::ranges::equal(textures, other.textures, same);
 }

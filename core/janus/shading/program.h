@@ -25,6 +25,8 @@ struct ShadingResult {
   Rgb transparency = Rgb(0.0f);
   // Share of Holdout closures. They do nothing, but for what the camera sees (path/clear_view.h).
   float holdout = 0.0f;
+  // The surface's shading normal, front side: that of the hit, or bumped by its displacement.
+  vec3 ns = vec3(0.0f);
 };
 
 class Program;
@@ -33,6 +35,10 @@ struct Instruction;
 inline constexpr int kMaxRegisters = 2048;
 // Of a program's Bump nodes: each asks for two more points.
 inline constexpr int kMaxFilterWidths = 8;
+// Of the points that instructions read (0: the point): that with the normal that the surface has
+// before its displacement bumps it; the two beside it follow.
+inline constexpr uint16_t kUnbumped = 1 + 2 * kMaxFilterWidths;
+inline constexpr float kBumpWidth = 0.1f;  // pixels to them: Cycles' filter width
 
 // The state of a run. Registers hold one float; a vector or colour takes three in a row.
 struct RunState {
@@ -99,6 +105,9 @@ class Program {
   Dependence dependence = Dependence::None;
   std::vector<SunDisc> suns;  // which a world looks for
   bool transmits = false;     // some closure scatters to the other side, or may
+  // Of the first instructions: they make the normal of the surface, which all others see.
+  uint32_t bump_instructions = 0;
+  uint16_t bumped_normal = 0;  // its register
 
   // --- Of a program that does nothing else.
   std::vector<AovWrite> aovs;
@@ -109,7 +118,7 @@ class Program {
   Program& operator=(Program&&) noexcept;
 
   // Is all of it the same everywhere?
-  bool constant() const { return closures.empty(); }
+  bool constant() const { return closures.empty() && bump_instructions == 0; }
   bool has_transparency() const { return varying_transparency || !is_black(transparency); }
   bool holds_out() const { return varying_holdout || holdout > 0.0f; }
   bool emits() const { return varying_emission || !is_black(emission); }
@@ -124,15 +133,20 @@ class Program {
     result.emission = emission;
     result.transparency = transparency;
     result.holdout = holdout;
+    result.ns = normal;
   }
 
   void run(const ShadingPoint& point, ShadingResult& result) const;
 
   // Calls write(aov, color, value) for each of `aovs`. What is no number is 0.
   template <class Write>
-  void run_aovs(const ShadingPoint& point, Write&& write) const {
+  void run_aovs(ShadingPoint point, Write&& write) const {
     float r[kMaxRegisters];
-    fill(point, r);
+    if (bump_instructions != 0) {
+      fill_bumped(point, r);
+    } else {
+      fill(point, r);
+    }
     const auto finite = [](float x) { return std::isfinite(x) ? x : 0.0f; };
     for (const AovWrite& a : aovs) {
       const float* c = r + a.color;
@@ -146,7 +160,12 @@ class Program {
  private:
   // Computes the registers.
   void fill(const ShadingPoint& point, float* registers) const;
-  void execute(RunState state) const;
+  // The same where the surface is bumped: the point gets its new normal.
+  void fill_bumped(ShadingPoint& point, float* registers) const;
+  // Places the two points beside the first one, for each width.
+  void place_beside(ShadingPoint* points) const;
+  void execute(RunState state, size_t first, size_t end) const;
+  void close(const ShadingPoint& point, const float* registers, ShadingResult& result) const;
 };
 
 // A point whose program depends on the view, to be run again for another one.

@@ -51,18 +51,21 @@ struct ShadingPoint {
   // By the program's slot; null where the mesh has none of that name.
   const AttributeDesc* const* attributes;
   float material_index;
-  // Edges of the triangle in the world (of a curve: its derivative, and nothing), and the size of a
-  // pixel there: see shifted().
+  // Edges of the triangle in the world (of a curve: its derivative, and nothing; of a ball:
+  // nothing, and its centre), and the size of a pixel there: see shifted().
   vec3 edge_u, edge_v;
   float footprint;  // metres
   // The interpolated normal in object space, as long as it comes out: what tangents go with.
   vec3 object_normal;
   // For shifted(): the normals of the corners in object space, or nothing.
   vec3 corner_normals[3];
-  bool moved;     // by shifted()
-  bool on_curve;  // else on a triangle or a ball, or nowhere
+  float ray_length;        // of the light of lamps alone: metres to what it lights, or infinite
+  bool moved;              // by shifted()
+  bool on_curve, on_ball;  // else on a triangle, or nowhere
 
   bool backfacing() const { return dot(view, ng) < 0.0f; }
+  // Of a ball, in the world; else the origin.
+  vec3 centre() const { return on_ball ? edge_v : vec3(0.0f); }
   // Cycles' normals look at the viewer.
   vec3 facing(vec3 n) const { return backfacing() ? -n : n; }
   // A pixel to the side: the tangents of Cycles' ray differentials, so that bump compares heights

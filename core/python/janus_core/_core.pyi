@@ -158,15 +158,18 @@ class SceneBuilder:
         """A surface, as a flattened node tree:
 
         {"nodes": [{"name", "type", "inputs": {identifier: value}, "properties": {identifier:
-        value}}], "surface": {"link": [node, output]} or None}. The value of an input is None, a
-        number, 3 or 4 numbers, a string, or a link. Types and identifiers are Blender's; see
-        node_types(). sample_emission False: what it emits is found by chance only. aovs: a tree
-        that ends in OUTPUT_AOV nodes, with the property aov_name.
+        value}}], "surface": {"link": [node, output]} or None, "displacement": likewise, by which it
+        is bumped}. The value of an input is None, a number, 3 or 4 numbers, a string, or a link.
+        Types and identifiers are Blender's; see node_types(). sample_emission False: what it emits
+        is found by chance only. aovs: a tree that ends in OUTPUT_AOV nodes, with the property
+        aov_name.
 
         Returns the keys of the attributes that they read. Of a mesh: "generated", "normal",
         "color:", "uv:NAME", "tangent:NAME", "tangent_sign:NAME" (without a name the active one),
-        "attribute:NAME", "pointiness", "random_per_island". Of an instance: "object:NAME",
-        "instancer:NAME", "dupli_generated", "dupli_uv".
+        "attribute:NAME", "pointiness", "random_per_island"; of points "point_radius". Of an
+        instance: "object:NAME", "instancer:NAME", "dupli_generated", "dupli_uv", "particle:times"
+        (index and age), "particle:lifetime", "particle:size", "particle:location",
+        "particle:velocity", "particle:angular_velocity".
         """
     def set_image(
         self,

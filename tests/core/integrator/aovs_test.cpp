@@ -17,7 +17,7 @@ Node aov(const std::string& name, Inputs inputs) {
   return result;
 }
 NodeGraph writes(vec3 color, float value) {
-  return {{aov("Color", {{"Color", vec4(color, 1)}}), aov("Value", {{"Value", value}})}, {}};
+  return {{aov("Color", {{"Color", vec4(color, 1)}}), aov("Value", {{"Value", value}})}, {}, {}};
 }
 
 // `alpha` of a colour.

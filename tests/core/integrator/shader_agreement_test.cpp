@@ -119,6 +119,22 @@ NodeGraph covered() {
                                    {"Emission Strength", 0.3f}});
 }
 
+// Displaced by the same waves, as bump, and bumped across.
+NodeGraph displaced() {
+  NodeGraph g = waved("BSDF_PRINCIPLED", {{"Base Color", vec4(0.8f, 0.5f, 0.2f, 1)},
+                                          {"Roughness", 0.4f},
+                                          {"Transmission Weight", 0.2f}});
+  Node up = node("Up", "DISPLACEMENT", {{"Scale", 0.02f}});
+  for (const Node& n : g.nodes) {
+    if (n.name == "Bump") {
+      up.inputs["Height"] = n.inputs.at("Height");
+    }
+  }
+  g.nodes.push_back(up);
+  g.displacement = NodeLink{"Up", "Displacement"};
+  return g;
+}
+
 struct ShaderScene {
   std::string name;
   NodeGraph (*make)();
@@ -128,6 +144,7 @@ struct ShaderScene {
 
 const ShaderScene kScenes[] = {
     {"bumped", &bumped, true, 64},
+    {"displaced", &displaced, false, 64},
     {"covered", &covered, true, 64},
     {"polished",  // what covers is smooth: no light path shows it
      [] {
@@ -146,6 +163,12 @@ const ShaderScene kScenes[] = {
      [] { return waved("BSDF_TOON", {{"Size", 0.4f}, {"Smooth", 0.3f}}, "component", "GLOSSY"); },
      true, 64},
     {"brushed", [] { return waved("BSDF_METALLIC", {{"Roughness", 0.5f}, {"Anisotropy", 0.7f}}); },
+     true, 64},
+    {"ashikhmin_shirley",
+     [] {
+       return waved("BSDF_GLOSSY", {{"Roughness", 0.5f}, {"Anisotropy", 0.5f}}, "distribution",
+                    "ASHIKHMIN_SHIRLEY");
+     },
      true, 64},
     {"coated", [] { return coated(0.4f); }, true},
     {"mirror_coated", [] { return coated(0.0f); }, false, 64},

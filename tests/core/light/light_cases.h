@@ -82,6 +82,15 @@ inline LightDesc by_nodes(LightDesc desc) {
   return desc;
 }
 
+inline const vec3 kFallingFrom(0.2f, 0.1f, 1);
+// With a tree by which it falls linearly, and less close to it.
+inline LightDesc falling(LightDesc desc) {
+  NodeGraph graph = single("EMISSION", {{"Strength", link("Falloff", "Linear")}});
+  graph.nodes.push_back(node("Falloff", "LIGHT_FALLOFF", {{"Strength", 0.8f}, {"Smooth", 0.4f}}));
+  desc.graph = graph;
+  return desc;
+}
+
 // Geometry around the receiver sets the extent of the scene: light comes from beyond.
 inline SceneKit around() {
   return SceneKit()
@@ -294,6 +303,15 @@ inline const LightCase kLightCases[] = {
     {.name = "area_by_nodes", .make = [] { return lamp(by_nodes(shaped(AreaShape::Rectangle))); }},
     {.name = "sun_by_nodes",
      .make = [] { return around().light("lamp", by_nodes(sun_light({0.3f, -1, 1}, 3, 0.5f))); }},
+    {.name = "point_falling_by_nodes",
+     .make = [] { return lamp(falling(point_light(kFallingFrom, 7))); },
+     .hittable = false},
+    {.name = "point_soft_falling_by_nodes",
+     .make = [] { return lamp(falling(point_light(kFallingFrom, 7, 0.3f))); }},
+    {.name = "sphere_falling_by_nodes",
+     .make = [] { return lamp(falling(point_light(kFallingFrom, 7, 0.3f, false))); }},
+    {.name = "area_falling_by_nodes",
+     .make = [] { return lamp(falling(area_light(kFallingFrom, {0, 0, 0}, 0.6f, 7))); }},
     {.name = "world_of_nodes",
      .make = [] { return world_of_nodes(around()); },
      .projected = of_scene},

@@ -52,9 +52,11 @@ TEST_P(Lights, EmitsItsPower) {
     EXPECT_NEAR(light_.power() / GetParam().watts, 1, 1e-4);
   }
   Mean watts;
+  // That of lamps that fall otherwise than lights do is what they would have in the picture.
+  const float distance = glm::length(vec3(scene_->camera.transform[3]) - kFallingFrom);
   for (int i = 0; i < 200000; ++i) {
     const auto e = light_.sample_emission(random_.next_2d(), random_.next_2d());
-    watts.add(e ? luminance(e->weight * light_.tint(e->origin, e->direction)) : 0.0f);
+    watts.add(e ? luminance(e->weight * light_.tint(e->origin, e->direction, distance)) : 0.0f);
   }
   if (light_.infinite()) {  // what it sends to the scene depends on the direction: about so much
     EXPECT_NEAR(watts.mean() / light_.power(), 1, 0.6);
@@ -80,7 +82,9 @@ TEST_P(Lights, IrradianceAgrees) {
     const auto e = light_.sample_emission(random_.next_2d(), random_.next_2d());
     const auto q = e ? landing(*e) : std::nullopt;
     const auto z0 = q ? light_.endpoint(*e, *q) : std::nullopt;
-    emitted.add(z0 ? e->weight.x * light_.tint(*z0, e->direction).x : 0.0f);  // over an area of 1
+    const float distance = z0 ? glm::length(*q - *z0) : 0.0f;
+    const float tint = z0 ? light_.tint(*z0, e->direction, distance).x : 0.0f;
+    emitted.add(z0 ? e->weight.x * tint : 0.0f);  // over an area of 1
   }
   EXPECT_TRUE(GetParam().nee ? agree(nee, emitted) : nee.mean() == 0);
   EXPECT_TRUE(GetParam().hittable ? agree(hit, emitted) : hit.mean() == 0);

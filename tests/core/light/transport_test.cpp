@@ -46,6 +46,8 @@ const TransportCase kCases[] = {
        return room().light("l", bright_off_the_middle(point_light({0.1f, 0, 0.1f}, 20, 0.5f)));
      },
      48},
+    {"soft_point_falling_by_nodes",
+     [] { return room().light("l", falling(point_light({0.1f, 0, 0.1f}, 20, 0.5f))); }, 48},
     {"spot",
      [] { return room().light("l", spot_light({0.1f, 0, 0.9f}, {0, 0.2f, 0}, 30, 1.2f, 0.3f)); }},
     {"spot_soft",

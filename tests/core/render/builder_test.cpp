@@ -241,8 +241,8 @@ TEST(Builder, WorldPictureFindings) {
   };
   findings(SceneKit().world(black_hole, 1, "Linear", turn({{"Rotation", vec3(NAN)}})), "Turn",
            "not a finite number");
-  findings(SceneKit().world(black_hole, 1, "Linear", node("Beam", "TEX_IES", {})), "Beam",
-           "TEX_IES");
+  findings(SceneKit().world(black_hole, 1, "Linear", node("Cloud", "TEX_POINTDENSITY", {})),
+           "Cloud", "TEX_POINTDENSITY");
   // Neither black nor negative pictures shine.
   EXPECT_TRUE(SceneKit().world(negative).build()->lights.empty());
   EXPECT_TRUE(SceneKit().world(Image(4, 2, 3)).build()->lights.empty());

@@ -71,8 +71,13 @@ TEST(Compiler, Distributions) {
     EXPECT_TRUE(beckmann.program.lobes[0].beckmann) << type;
     EXPECT_FALSE(with(type, "GGX", 0.5f).program.lobes[0].beckmann) << type;
   }
-  EXPECT_TRUE(warned(with("BSDF_GLOSSY", "ASHIKHMIN_SHIRLEY", 0.5f), "Shader", "ASHIKHMIN"));
-  EXPECT_TRUE(with("BSDF_GLOSSY", "ASHIKHMIN_SHIRLEY", 0).diagnostics.empty());  // smooth alike
+  for (const float roughness : {0.0f, 0.01f, 0.5f}) {  // smooth ones are mirrors
+    const Compiled made = with("BSDF_GLOSSY", "ASHIKHMIN_SHIRLEY", roughness);
+    EXPECT_TRUE(made.diagnostics.empty());
+    EXPECT_EQ(made.program.lobes[0].type,
+              roughness < 0.1f ? LobeType::Glossy : LobeType::AshikhminShirley);
+    EXPECT_EQ(is_delta(made.program.lobes[0]), roughness < 0.1f);
+  }
 }
 
 TEST(Compiler, OmittedInputsTakeTheDeclaredDefaults) {

@@ -99,7 +99,7 @@ VIEWS = (
         "light paths do not know the node tree of a lamp",
         ONLOOKERS,
         SUBPATH,
-        "v.beta *= light.tint(*endpoint, emission->direction);",
+        "v.beta *= light.tint(*endpoint, emission->direction, glm::length(v.hit.p - *endpoint));",
         "",
     ),
     one(
@@ -108,7 +108,16 @@ VIEWS = (
         "the tree of a lamp is asked at the ray's origin, not where the path starts",
         ONLOOKERS,
         SUBPATH,
-        "light.tint(*endpoint, emission->direction)",
-        "light.tint(emission->origin, emission->direction)",
+        "light.tint(*endpoint, ",
+        "light.tint(emission->origin, ",
+    ),
+    one(
+        "all-lies-at-one-metre",
+        0,
+        "to the node tree of a lamp, light paths end a metre away",
+        ONLOOKERS,
+        SUBPATH,
+        "glm::length(v.hit.p - *endpoint));",
+        "1.0f);",
     ),
 )

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "janus/shading/node_emitter.h"
+#include "janus/shading/nodes/bump.h"
 #include "janus/shading/nodes/families.h"
 #include "janus/shading/point_reads.h"
 #include "janus/shading/rotation.h"
@@ -127,6 +128,12 @@ void emit_bump(NodeEmitter& e) {
     e.output("Normal", e.is_constant(n, nullptr) ? e.emit(kFacingNormal, {}) : n);
     return;
   }
+  // In what displaces the surface Cycles finds no slope: it looks three times at one point.
+  if (e.displaces()) {
+    constexpr static Operation kUnit = pure<&safe_normalize>;
+    e.output("Normal", e.emit(kUnit, {n}));
+    return;
+  }
   if (e.shifted()) {
     e.warn("a bump in the height of another bump is left out there");
     e.output("Normal", n);
@@ -140,13 +147,15 @@ void emit_bump(NodeEmitter& e) {
     return;
   }
   e.output("Normal",
-           e.emit(by_side<&bump>,
+           e.emit(kBump,
                   {e.input("Strength"), e.input("Distance"), e.constant(e.filter_width()),
                    e.input("Height"), e.input("Height", *at), e.input("Height", *at + 1), n},
                   e.flag("invert") ? 1 : 0));
 }
 
 }  // namespace
+
+constinit const Operation kBump = by_side<&bump>;
 
 std::span<const NodeDecl> normal_nodes() {
   static const NodeDecl kNodes[] = {

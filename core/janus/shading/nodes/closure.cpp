@@ -19,15 +19,15 @@ constexpr SocketDecl kAdd[] = {{"Shader", SocketType::Closure},
 
 constexpr SocketDecl kAov[] = {{"Color", SocketType::Color}, {"Value", SocketType::Float}};
 
-// Glossy names the last one where a surface is rough. What Refraction does not have comes first, so
-// that the places are the same.
+// Glossy has one more. What Refraction does not have comes first, so that the places are the same.
 constexpr std::string_view kDistributions[] = {"MULTI_GGX", "GGX", "BECKMANN"},
-                           kTwoGgx[] = {"MULTI_GGX", "GGX"}, kAshikhmin[] = {"ASHIKHMIN_SHIRLEY"};
+                           kFour[] = {"MULTI_GGX", "GGX", "BECKMANN", "ASHIKHMIN_SHIRLEY"},
+                           kTwoGgx[] = {"MULTI_GGX", "GGX"};
 // Items in the order of SubsurfaceMethod. Christensen-Burley is named where it matters.
 constexpr std::string_view kMethods[] = {"RANDOM_WALK", "RANDOM_WALK_LEGACY", "RANDOM_WALK_SKIN"},
                            kBurley[] = {"BURLEY"};
 constexpr EnumDecl kDistribution[] = {{"distribution", kDistributions}},
-                   kGlossy[] = {{"distribution", kDistributions, kAshikhmin}},
+                   kGlossy[] = {{"distribution", kFour}},
                    kPrincipled[] = {{"distribution", kTwoGgx},
                                     {"subsurface_method", kMethods, kBurley}},
                    kSubsurface[] = {{"falloff", kMethods, kBurley}};

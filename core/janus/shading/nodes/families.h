@@ -26,5 +26,7 @@ std::span<const NodeDecl> wavelength_nodes();
 std::span<const NodeDecl> pattern_nodes();
 std::span<const NodeDecl> sky_nodes();
 std::span<const NodeDecl> normal_nodes();
+std::span<const NodeDecl> displacement_nodes();
+std::span<const NodeDecl> ies_nodes();
 
 }  // namespace janus

@@ -235,6 +235,59 @@ void emit_curves_info(NodeEmitter& e) {
   }
 }
 
+// --- Point Info, Particle Info -------------------------------------------------------------------
+
+constexpr std::string_view kPointInfo[] = {"Position", "Radius", "Random"};
+
+constexpr Operation kCentre = at_point<[](const Context& c) { return c.point.centre(); }>;
+constexpr Operation kBallRadius = at_point<[](const Context& c) {
+  const vec3 diagonal(c.point.attribute(c.data).x / std::sqrt(3.0f));
+  return glm::length(mat3(c.point.object->to_world) * diagonal);
+}>;
+constexpr Operation kBallRandom = at_point<[](const Context& c) {
+  return c.point.on_ball ? jenkins_number(std::array{c.point.triangle.face, 0U}) : 0.0f;
+}>;
+
+void emit_point_info(NodeEmitter& e) {
+  e.output("Position", e.emit(kCentre, {}));
+  if (e.output_linked("Radius")) {
+    e.output("Radius", e.emit(kBallRadius, {}, e.attribute("point_radius")));
+  }
+  e.output("Random", e.emit(kBallRandom, {}));
+}
+
+constexpr std::string_view kParticleInfo[] = {"Index",    "Random", "Age",      "Lifetime",
+                                              "Location", "Size",   "Velocity", "Angular Velocity"};
+
+// What is no instance of a particle has noughts, as the first particle would.
+constexpr Operation kHashed =
+    pure<[](float index) { return jenkins_number(std::array{static_cast<uint32_t>(index), 0U}); }>;
+
+void emit_particle_info(NodeEmitter& e) {
+  const auto read = [&](const char* key) { return e.emit(kAttribute, {}, e.attribute(key)); };
+  const auto part = [&](Value v, int i) {
+    constexpr static Operation kPart = pure<[](vec3 v, float i) { return v[static_cast<int>(i)]; }>;
+    return e.emit(kPart, {v, e.constant(static_cast<float>(i))});
+  };
+  if (e.output_linked("Index") || e.output_linked("Random") || e.output_linked("Age")) {
+    const Value times = read("particle:times");
+    e.output("Index", part(times, 0));
+    e.output("Random", e.emit(kHashed, {part(times, 0)}));
+    e.output("Age", part(times, 1));
+  }
+  for (const auto& [output, key] :
+       {std::pair("Lifetime", "particle:lifetime"), std::pair("Size", "particle:size"),
+        std::pair("Location", "particle:location"), std::pair("Velocity", "particle:velocity"),
+        std::pair("Angular Velocity", "particle:angular_velocity")}) {
+    if (e.output_linked(output)) {
+      const Value value = read(key);
+      const bool number =
+          output == std::string_view("Lifetime") || output == std::string_view("Size");
+      e.output(output, number ? part(value, 0) : value);
+    }
+  }
+}
+
 }  // namespace
 
 std::span<const NodeDecl> geometry_nodes() {
@@ -245,6 +298,8 @@ std::span<const NodeDecl> geometry_nodes() {
       {"NEW_GEOMETRY", {}, kGeometry, &emit_geometry},
       {"WIREFRAME", kWireframeInputs, kWireframe, &emit_wireframe},
       {"HAIR_INFO", {}, kCurvesInfo, &emit_curves_info},
+      {"POINT_INFO", {}, kPointInfo, &emit_point_info},
+      {"PARTICLE_INFO", {}, kParticleInfo, &emit_particle_info},
       {"TANGENT", {}, kTangent, &emit_tangent, nullptr, MixOp::None, kDirection},
   };
   return kNodes;

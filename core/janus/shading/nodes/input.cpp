@@ -3,6 +3,7 @@
 // What a shader is told about the point: coordinates, the object, the view.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "janus/shading/compiler.h"
 #include "janus/shading/fresnel.h"
@@ -109,12 +110,65 @@ constexpr std::string_view kLightPath[] = {
     "Ray Length",         "Ray Depth",         "Diffuse Depth",       "Glossy Depth",
     "Transmission Depth", "Transparent Depth", "Portal Depth"};
 
+constexpr float kFar = std::numeric_limits<float>::max();  // of what is infinitely far
+
 // There is a program for each type of ray, with the answers as constants.
 void emit_light_path(NodeEmitter& e) {
   for (const std::string_view output : kLightPath) {
     if (const auto yes = light_path_answer(e.seen().ray, output)) {
       e.output(output, e.constant(*yes ? 1.0f : 0.0f));
     }
+  }
+  if (e.seen().of == SeenTree::Of::World) {
+    e.output("Ray Length", e.constant(kFar));
+  } else if (e.seen().of == SeenTree::Of::Lamp) {
+    constexpr static Operation kLength =
+        by_view<[](const Context& c) { return std::min(c.point.ray_length, kFar); }>;
+    e.output("Ray Length", e.emit(kLength, {}));
+  }
+}
+
+// --- Light Falloff -------------------------------------------------------------------------------
+
+constexpr SocketDecl kFalloffInputs[] = {{"Strength", Float, 100.0f}, {"Smooth", Float, 0.0f}};
+constexpr std::string_view kFalloff[] = {"Quadratic", "Linear", "Constant"};
+
+// Light falls with the square of the distance by itself. From infinitely far it does not.
+float falloff(float distance, int power, float strength, float smooth) {
+  if (std::isinf(distance)) {
+    return strength;
+  }
+  const float squared = sqr(distance);
+  strength *= power == 0 ? 1.0f : power == 1 ? distance : squared;
+  return smooth > 0.0f ? strength * (squared / (smooth + squared)) : strength;
+}
+template <int Power>
+constexpr Operation kFalloffOfLamp = by_view<[](const Context& c, float strength, float smooth) {
+  return falloff(c.point.ray_length, Power, strength, smooth);
+}>;
+template <int Power>
+constexpr Operation kFalloffAtOneMetre =
+    pure<[](float strength, float smooth) { return falloff(1.0f, Power, strength, smooth); }>;
+
+void emit_falloff(NodeEmitter& e) {
+  const Value strength = e.input("Strength"), smooth = e.input("Smooth");
+  if (e.seen().of == SeenTree::Of::World) {
+    for (const std::string_view output : kFalloff) {
+      e.output(output, strength);
+    }
+    return;
+  }
+  const bool lamp = e.seen().of == SeenTree::Of::Lamp;
+  const auto emit = [&](const Operation& of_lamp, const Operation& at_one_metre) {
+    return e.emit(lamp ? of_lamp : at_one_metre, {strength, smooth});
+  };
+  e.output("Quadratic", emit(kFalloffOfLamp<0>, kFalloffAtOneMetre<0>));
+  e.output("Linear", emit(kFalloffOfLamp<1>, kFalloffAtOneMetre<1>));
+  e.output("Constant", emit(kFalloffOfLamp<2>, kFalloffAtOneMetre<2>));
+  const bool exact = lamp || (e.is_constant(smooth, vec3(0.0f)) && !e.output_linked("Linear") &&
+                              !e.output_linked("Constant"));
+  if (!exact) {
+    e.warn("on surfaces the distance is not known yet; one metre is used");
   }
 }
 
@@ -184,6 +238,7 @@ std::span<const NodeDecl> input_nodes() {
       {"OBJECT_INFO", {}, kObject, &emit_object},
       {"CAMERA", {}, kCamera, &emit_camera},
       {"LIGHT_PATH", {}, kLightPath, &emit_light_path},
+      {"LIGHT_FALLOFF", kFalloffInputs, kFalloff, &emit_falloff},
       {"FRESNEL", kFresnelInputs, kFactor, &emit_fresnel},
       {"LAYER_WEIGHT", kLayerInputs, kLayer, &emit_layer_weight},
   };
