@@ -281,6 +281,16 @@ TEST(Transport, RefusesByName) {
   lamp = projector_lamp();
   lamp.transform[1] += 0.5f * lamp.transform[0];
   EXPECT_EQ(refused(lit(lamp), fine), "l/transform");
+  // A tree with Light Falloff.
+  for (const LightDesc& desc : {projector_lamp(), parallel_lamp()}) {
+    lamp = desc;
+    lamp.graph = single("EMISSION", {{"Strength", link("Falloff", "Linear")}});
+    lamp.graph->surface = NodeLink{"Shader", "Emission"};
+    lamp.graph->nodes.push_back(node("Falloff", "LIGHT_FALLOFF", {{"Strength", 1.0f}}));
+    EXPECT_EQ(refused(lit(lamp), fine), "l/node_tree");
+    lamp.graph->nodes[0].inputs["Strength"] = link("Falloff", "Quadratic");
+    EXPECT_EQ(refused(lit(lamp), fine), "");
+  }
 }
 
 TEST(Transport, CancelKeepsWholePasses) {
