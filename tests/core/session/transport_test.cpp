@@ -82,6 +82,18 @@ TEST(Transport, EveryTechniqueIsCounted) {
   }
 }
 
+// Then a pass sees the scene at several times, in waves of its own.
+TEST(Transport, ThingsMayMove) {
+  SceneKit kit = lit(projector_lamp());
+  kit.builder.set_instance_motion("low", {mat4(1.0f), translation({0.0f, 0.0f, 0.3f})});
+  Capture capture;
+  const auto session = capture.run(kit);
+  expect_sums_are(session->snapshot(), session->matrix());
+  capture.settings.motion_blur = false;
+  const auto still = capture.run(kit);
+  EXPECT_NE(still->matrix().shares, session->matrix().shares);
+}
+
 // A mirror sends the projector's light on: only light paths find where it arrives.
 TEST(Transport, CausticsStartInTheirPixels) {
   SceneKit kit = lit(projector_lamp());
