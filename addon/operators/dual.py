@@ -173,11 +173,13 @@ class JANUS_OT_relight(_Named, bpy.types.Operator):
         slide = self.slide or (chosen.name if chosen else "")
         watts = matrix.own_watts
         if slide:
-            warn = lambda text: self.report({"WARNING"}, f"The image '{slide}': {text}")  # noqa: E731
-            watts = matrix.shown(read_slide(slide, warn))
+            watts = matrix.shown(read_slide(slide, self._warn))
         image = transport.show(label(light, "Primal"), matrix.relight(watts * 2.0**self.exposure))
         show_in_editor(image)
         return {"FINISHED"}
+
+    def _warn(self, message: str) -> None:
+        self.report({"WARNING"}, f"The slide: {message}")
 
 
 class JANUS_OT_show_dual(_Named, bpy.types.Operator):

@@ -7,7 +7,6 @@ import bpy
 import numpy as np
 
 from .. import bridge
-from ..properties.light import MOST_CAMERA, MOST_PROJECTOR  # noqa: F401  pixels on a side
 from ..report import RenderRefused
 from .progress import fraction, status
 

@@ -71,18 +71,18 @@ def _ask_for_transport(scene: bpy.types.Scene, options: argparse.Namespace, addo
         raise Problem(f"--dual-light: the scene has no light '{name}'")
     if reason := unfit(lights[name])[1]:
         raise Problem(f"--dual-light: '{name}': {reason}")
-    transport = addon.part("render.transport")
+    limits = addon.part("properties.light")
     width, height = options.dual_resolution
-    most = transport.MOST_PROJECTOR
+    most = limits.MOST_PROJECTOR
     if max(width, height) > most:
         raise Problem(f"--dual-resolution: at most {most}x{most}, not {width}x{height}")
     render = addon.part("sync.settings").frame_size(scene.render)
-    if max(render) > transport.MOST_CAMERA:
-        most = transport.MOST_CAMERA
-        raise Problem(
-            f"--resolution: with --dual at most {most}x{most}, not {render[0]}x{render[1]}"
-        )
+    most = limits.MOST_CAMERA
+    if max(render) > most:
+        size = "x".join(map(str, render))
+        raise Problem(f"--resolution: with --dual at most {most}x{most}, not {size}")
     samples = addon.part("sync.cycles_settings").value(scene, "samples")
+    transport = addon.part("render.transport")
     request = transport.Request(name, width, height, max(render), max(samples, 2))
     transport.ask(scene, request)
 

@@ -266,6 +266,22 @@ def test_no_light_is_lost_in_blocks(which, request):
     assert np.allclose(columns.sum(axis=(0, 1)), rows.sum(axis=0), rtol=1e-4)
 
 
+def test_little_memory_loses_little():
+    """The same samples in fewer blocks: what differs is lost in them. It is less than the noise."""
+    built, side = scene(LEFT, RIGHT), 32
+    fine = taken(built, 48, side, 64)
+    small = taken(built, 48, side, 64, memory=8 << 20)
+    assert len(small.blocks) < 0.5 * len(fine.blocks)
+    slide = (np.add(*np.mgrid[:side, :side] // 4) % 2).astype(float)
+    picture = fine.relight(slide)
+    lost = np.abs(small.relight(slide) - picture).mean() / picture.mean()
+    noise = np.sqrt(fine.relight_variance(slide)).mean() / picture.mean()
+    assert 0.0 < lost < 0.4 * noise
+    ramp = np.linspace(0.0, 1.0, 48)[:, None].repeat(48, axis=1)  # even light is kept exactly
+    seen = fine.dual(ramp)
+    assert 0.0 < np.abs(small.dual(ramp) - seen).mean() < 0.01 * seen.mean()
+
+
 def test_light_that_nobody_sees(tmp_path):
     away = {**RIGHT, "target": (0.9, -9.0, 0.0)}
     taken(scene(LEFT, away), samples=4).save(tmp_path / "dark.npz")

@@ -120,11 +120,10 @@ class ProjectorLight final : public Light {
   vec3 axis_;
 };
 
-// Watts that arrive at the film's place `q`, per area of the film.
-Rgb film_flux(const ProjectorDesc& desc, const Light& light, vec2 q) {
+// Watts that leave the film's place `q`, per area of the film, as they are seen from a distance.
+Rgb film_flux(const ProjectorDesc& desc, const Light& light, vec2 q, float distance = 1.0f) {
   if (desc.parallel) {
-    const float size = std::max(desc.high.x - desc.low.x, desc.high.y - desc.low.y);
-    const vec3 p = desc.center + desc.rotation * vec3(q, -1e-3f * size);
+    const vec3 p = desc.center + desc.rotation * vec3(q, -distance);
     const auto hit = light.intersect(Ray{p, desc.rotation[2]});
     if (!hit) {
       return Rgb(0.0f);
@@ -137,9 +136,9 @@ Rgb film_flux(const ProjectorDesc& desc, const Light& light, vec2 q) {
   }
   const vec3 local(q, -1.0f);
   const float cosine = 1.0f / glm::length(local);
-  const auto sample =
-      light.sample_illumination(desc.center + desc.rotation * (cosine * local), 0, vec2(0.5f));
-  return sample ? sample->radiance * (cosine * cosine * cosine) : Rgb(0.0f);
+  const vec3 receiver = desc.center + desc.rotation * (distance * cosine * local);
+  const auto sample = light.sample_illumination(receiver, 0, vec2(0.5f));
+  return sample ? sample->radiance * (sqr(distance) * cosine * cosine * cosine) : Rgb(0.0f);
 }
 
 }  // namespace
@@ -195,6 +194,20 @@ ProjectorDesc projector_of(const LightDesc& lamp, int width, int height) {
 
 std::unique_ptr<Light> make_projector(const ProjectorDesc& desc) {
   return std::make_unique<ProjectorLight>(desc);
+}
+
+bool depends_on_distance(const ProjectorDesc& desc, const Light& light) {
+  constexpr int kGrid = 8;
+  int lit = 0, unlike = 0;
+  for (int i = 0; i < kGrid * kGrid; ++i) {
+    const vec2 place =
+        (vec2(i % kGrid, i / kGrid) + vec2(0.38f, 0.62f)) / static_cast<float>(kGrid);
+    const vec2 q = desc.low + place * (desc.high - desc.low);
+    const Rgb near = film_flux(desc, light, q), far = film_flux(desc, light, q, 3.0f);
+    lit += is_black(near + far) ? 0 : 1;
+    unlike += max_abs_component(near - far) > 1e-3f * max_component(near + far) ? 1 : 0;
+  }
+  return 2 * unlike > lit;  // rounding may find other pixels of a slide in a few places
 }
 
 std::vector<Rgb> watts_by_pixel(const ProjectorDesc& desc, const Light& light) {

@@ -35,6 +35,10 @@ ProjectorDesc projector_of(const LightDesc& lamp, int width, int height);
 // irradiance 1 / a.
 std::unique_ptr<Light> make_projector(const ProjectorDesc& desc);
 
+// Does its node tree make more or less of `light`, made of that lamp, the farther it goes? Then no
+// pixel has watts of its own. Looks at some of its places.
+bool depends_on_distance(const ProjectorDesc& desc, const Light& light);
+
 // What `light`, made of that lamp, emits into each pixel: watts by channel, row by row from the
 // bottom; by samples in each pixel.
 std::vector<Rgb> watts_by_pixel(const ProjectorDesc& desc, const Light& light);

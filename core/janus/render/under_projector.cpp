@@ -56,6 +56,10 @@ LampWatts lamp_watts(const Scene& scene, const ProjectorDesc& projector) {
   for (size_t i = 0; lamp != scene.described_lamps.end() && i < lamp->count; ++i) {
     const Light& light = *scene.lights[lamp->first_light + i];
     if (contains(light.visibility, RayType::Diffuse)) {
+      if (depends_on_distance(projector, light)) {
+        throw SceneError(projector.lamp.name, "node_tree",
+                         "a projector's light must not depend on the distance (Light Falloff)");
+      }
       const std::vector<Rgb> part = watts_by_pixel(projector, light);
       std::ranges::transform(part, watts.own, watts.own.begin(), std::plus<>());
     }

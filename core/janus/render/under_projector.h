@@ -22,7 +22,8 @@ std::shared_ptr<const Scene> under_projector(const std::shared_ptr<const Scene>&
                                              const ProjectorDesc& projector);
 
 // Watts that the lamp emits into each pixel of the projector, row by row from the bottom: as it is
-// in the scene, with its node tree, and without that.
+// in the scene, with its node tree, and without that. Throws SceneError(name, "node_tree", ...) for
+// light that depends on the distance.
 struct LampWatts {
   std::vector<Rgb> own, plain;
 };

@@ -82,6 +82,18 @@ TEST(Transport, EveryTechniqueIsCounted) {
   }
 }
 
+// Then a pass sees the scene at several times, in waves of its own.
+TEST(Transport, ThingsMayMove) {
+  SceneKit kit = lit(projector_lamp());
+  kit.builder.set_instance_motion("low", {mat4(1.0f), translation({0.0f, 0.0f, 0.3f})});
+  Capture capture;
+  const auto session = capture.run(kit);
+  expect_sums_are(session->snapshot(), session->matrix());
+  capture.settings.motion_blur = false;
+  const auto still = capture.run(kit);
+  EXPECT_NE(still->matrix().shares, session->matrix().shares);
+}
+
 // A mirror sends the projector's light on: only light paths find where it arrives.
 TEST(Transport, CausticsStartInTheirPixels) {
   SceneKit kit = lit(projector_lamp());
@@ -97,17 +109,18 @@ TEST(Transport, ColumnsAreWhatAPixelLights) {
   Capture capture;
   capture.transport.width = capture.transport.height = 3;
   capture.settings.samples = samples(96);
-  const auto session = capture.run(lit(projector_lamp()));
+  SceneKit kit = lit(projector_lamp());
+  kit.add("wax", ball(0.3f), subsurface(Rgb(0.8f, 0.6f, 0.4f)), translation({0.3f, 0.2f, 0.2f}));
+  const auto session = capture.run(kit);
   const TransportMatrix m = session->matrix();
   ASSERT_EQ(m.shares_size, 1);
-  const LightDesc lamp = projector_lamp();
   for (const int pixel : {4, 3, 7}) {
     ProjectorDesc one = session->projector();
     const vec2 step = (one.high - one.low) / 3.0f;
     one.low += step * vec2(pixel % 3, pixel / 3);
     one.high = one.low + step;
     one.width = one.height = 1;
-    const auto scene = under_projector(lit(lamp).build(), one);
+    const auto scene = under_projector(kit.build(), one);
     double light = 0.0, variance = 0.0;
     for (size_t tile = 0; tile < m.shares.size() / 9; ++tile) {
       light += luminance(m.shares[9 * tile + pixel]);
@@ -280,6 +293,16 @@ TEST(Transport, RefusesByName) {
   lamp = projector_lamp();
   lamp.transform[1] += 0.5f * lamp.transform[0];
   EXPECT_EQ(refused(lit(lamp), fine), "l/transform");
+  // A tree with Light Falloff.
+  for (const LightDesc& desc : {projector_lamp(), parallel_lamp()}) {
+    lamp = desc;
+    lamp.graph = single("EMISSION", {{"Strength", link("Falloff", "Linear")}});
+    lamp.graph->surface = NodeLink{"Shader", "Emission"};
+    lamp.graph->nodes.push_back(node("Falloff", "LIGHT_FALLOFF", {{"Strength", 1.0f}}));
+    EXPECT_EQ(refused(lit(lamp), fine), "l/node_tree");
+    lamp.graph->nodes[0].inputs["Strength"] = link("Falloff", "Quadratic");
+    EXPECT_EQ(refused(lit(lamp), fine), "");
+  }
 }
 
 TEST(Transport, CancelKeepsWholePasses) {
