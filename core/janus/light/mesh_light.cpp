@@ -8,7 +8,7 @@
 namespace janus {
 
 MeshLight::MeshLight(const Accel& accel, const Surfaces& surfaces, const Shape& shape,
-                     const Instance& instance, uint32_t index)
+                     const Instance& instance, uint32_t index, const MeshLight* at_rest)
     : accel_(accel), surfaces_(surfaces), instance_(index), slot_(shape.primitives(), kDark) {
   name = instance.names->name;
   light_group = instance.names->light_group;
@@ -16,11 +16,12 @@ MeshLight::MeshLight(const Accel& accel, const Surfaces& surfaces, const Shape& 
   holdout = instance.holdout;
   set_links(instance.emitter);
   if (const Mesh* mesh = shape.mesh()) {
-    add_triangles(*mesh, instance);
+    add_triangles(*mesh, instance, at_rest);
   }
 }
 
-void MeshLight::add_triangles(const Mesh& mesh, const Instance& instance) {
+void MeshLight::add_triangles(const Mesh& mesh, const Instance& instance,
+                              const MeshLight* at_rest) {
   const mat3 linear(instance.to_world);
   std::vector<float> weights;
   for (uint32_t i = 0; i < slot_.size(); ++i) {
@@ -36,7 +37,9 @@ void MeshLight::add_triangles(const Mesh& mesh, const Instance& instance) {
     if (!(area > 0.0f)) {
       continue;
     }
-    const Rgb radiance = program.varying_emission ? mean_radiance(i) : program.emission;
+    const Rgb radiance = !program.varying_emission ? program.emission
+                         : at_rest                 ? at_rest->known_radiance(i)
+                                                   : mean_radiance(i);
     const float weight = area * luminance(radiance);
     if (!(weight > 0.0f)) {
       continue;

@@ -13,8 +13,10 @@ namespace janus {
 class MeshLight final : public Light {
  public:
   // Of instance `index`, whose materials emit. What is not to be looked for stays dark here.
+  // `at_rest`: the same light at another time, which has looked at what varies: where it is bright
+  // is known well enough from there.
   MeshLight(const Accel& accel, const Surfaces& surfaces, const Shape& shape,
-            const Instance& instance, uint32_t index);
+            const Instance& instance, uint32_t index, const MeshLight* at_rest = nullptr);
 
   float power() const override { return power_; }
   bool hittable() const override { return true; }
@@ -42,9 +44,12 @@ class MeshLight final : public Light {
   static constexpr uint32_t kDark = 0xffffffffU;
 
   const Triangle& triangle(uint32_t primitive) const { return triangles_[slot_[primitive]]; }
-  void add_triangles(const Mesh& mesh, const Instance& instance);
+  void add_triangles(const Mesh& mesh, const Instance& instance, const MeshLight* at_rest);
   // What the mesh's triangle emits: the mean over some of its points, from both sides.
   Rgb mean_radiance(uint32_t primitive) const;
+  Rgb known_radiance(uint32_t primitive) const {
+    return slot_[primitive] == kDark ? Rgb(0.0f) : triangle(primitive).radiance;
+  }
   // At a point, into the unit direction `view`.
   Rgb radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const {
     return triangle.varying ? varying_radiance(triangle, barycentric, view) : triangle.radiance;

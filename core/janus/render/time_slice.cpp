@@ -66,7 +66,7 @@ bool renew_lights(Scene& slice, const Scene& scene) {
     const auto index = static_cast<size_t>(instance.light);
     slice.lights[index] = std::make_shared<const MeshLight>(
         *slice.accel, slice.surfaces, *slice.shapes[instance.shape], slice.instances[i],
-        static_cast<uint32_t>(i));
+        static_cast<uint32_t>(i), static_cast<const MeshLight*>(scene.lights[index].get()));
     renewed = true;
   }
   return renewed;

@@ -9,20 +9,10 @@ from mistakes.sources import ORACLE
 
 ENDS = "core/janus/shading/subsurface_ends.cpp"
 WALK = "core/janus/render/subsurface_walk.cpp"
-JOIN = "core/janus/path/subsurface.cpp"
 WALKS = "Subsurface*"
 TECHNIQUES = f"{ORACLE}:*SubsurfaceAgreement*:*SingleTechniques*subsurface*"
 
 BELOW = (
-    one(
-        "walks-below-that-are-alike",
-        0,
-        "camera walks think that light walks go below a surface with the same density",
-        TECHNIQUES,
-        JOIN,
-        "ratio = walk.reverse(*other, upper_normal(v.hit, arrival)).pdf_ratio *",
-        "ratio =",
-    ),
     one(
         "albedo-of-one-end",
         0,
