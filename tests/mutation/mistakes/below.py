@@ -41,15 +41,6 @@ BELOW = (
         "e.pdf_importance = lobe ? 1.0f : 0.0f;",
     ),
     one(
-        "roulette-below-in-one-walk",
-        0,
-        "light walks forget the roulette that they survived below the surface",
-        TECHNIQUES,
-        WALK,
-        "Reverse out{medium.scale() / survival_, 1.0};",
-        "Reverse out{medium.scale(), 1.0};",
-    ),
-    one(
         "guided-as-if-not",
         0,
         "directions are drawn towards the surface, and not counted so",
