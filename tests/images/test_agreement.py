@@ -40,6 +40,8 @@ def test_integrators_agree_on_materials(materials, case):
     captured, _ = materials(case)
     samples = {"pt": 256, "lt": 320, "bdpt": 80}
     times, left = (3, material_scenes.SEEN) if case in material_scenes.MIRRORS else (1, 0)
+    if case in material_scenes.NOISY:
+        times = 5
     pictures = {name: captured.series(name, times * n, SEEDS) for name, n in samples.items()}
     seen = np.ones(pictures["pt"][0].shape[:2], dtype=bool)
     seen[:, :left] = False  # of what remains, there is less to average
