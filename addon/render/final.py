@@ -25,9 +25,7 @@ from . import denoise, transport
 from .partial import save_partial
 from .passes import LayerResult
 from .persistent import PersistentData
-from .progress import Rhythm, fraction, status
-
-POLL_SECONDS = 0.05
+from .progress import POLL_SECONDS, run_to_end
 
 # Passes that tell detail from noise, where the core has them: argument of denoise() -> key.
 GUIDES = {"albedo": "Denoising Albedo", "normal": "Denoising Normal"}
@@ -185,27 +183,13 @@ def _build(core, engine, depsgraph, frame, settings, log, persistent):
 
 
 def _run(engine, session, settings, result) -> bool:
-    """Renders to the end or until the user stops, and shows the picture on the way.
+    """Renders to the end or until the user stops, and shows the picture on the way."""
 
-    Returns whether the user stopped it.
-    """
-    rhythm = Rhythm()
-    cancelled = False
-    session.start()
-    while not session.wait(POLL_SECONDS):
-        if engine.test_break() and not cancelled:
-            cancelled = True
-            session.cancel()
-        progress = session.progress()
-        engine.update_progress(fraction(progress, settings.seconds))
-        engine.update_stats("", status(progress))
-        if not bpy.app.background and not cancelled and rhythm.due():
-            started = time.perf_counter()
-            result.push({"Combined": session.snapshot("Combined")})
-            rhythm.shown(time.perf_counter() - started)
-    session.finish()
-    engine.update_progress(1.0)
-    return cancelled
+    def show():
+        result.push({"Combined": session.snapshot("Combined")})
+
+    shown = None if bpy.app.background else show
+    return run_to_end(engine, session, settings.seconds, show=shown)
 
 
 def _hand_over(session, depsgraph, result) -> None:

@@ -5,6 +5,7 @@ import time
 
 FIRST_UPDATE = 0.5  # seconds
 SLOWEST_UPDATE = 5.0
+POLL_SECONDS = 0.05
 MAX_SHARE = 0.05  # of the time may go into showing the picture
 
 
@@ -45,3 +46,28 @@ class Rhythm:
         """Plans the next update after one that took `cost` seconds."""
         self._interval = min(self._interval * 1.5, SLOWEST_UPDATE)
         self._next = self._now() + max(self._interval, cost / MAX_SHARE)
+
+
+def run_to_end(engine, session, time_limit: float, said: str = "", show=None) -> bool:
+    """Runs a core session under Blender's progress display until it ends or the user stops it.
+
+    `said` stands before the words; show() is called now and then to show the picture. Returns
+    whether the user stopped it.
+    """
+    rhythm = Rhythm()
+    cancelled = False
+    session.start()
+    while not session.wait(POLL_SECONDS):
+        if engine.test_break() and not cancelled:
+            cancelled = True
+            session.cancel()
+        progress = session.progress()
+        engine.update_progress(fraction(progress, time_limit))
+        engine.update_stats("", said + status(progress))
+        if show is not None and not cancelled and rhythm.due():
+            started = time.perf_counter()
+            show()
+            rhythm.shown(time.perf_counter() - started)
+    session.finish()
+    engine.update_progress(1.0)
+    return cancelled

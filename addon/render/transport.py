@@ -8,9 +8,8 @@ import numpy as np
 
 from .. import bridge
 from ..report import RenderRefused
-from .progress import fraction, status
+from .progress import run_to_end
 
-POLL_SECONDS = 0.05
 MEGABYTE = 1 << 20
 
 # What the next renders of these scenes capture instead, and what came of it: a TransportMatrix by
@@ -68,16 +67,7 @@ def capture(request: Request, core, engine, scene, settings, frame, result) -> d
         projector_height=request.height,
         memory=request.memory * MEGABYTE,
     )
-    cancelled = False
-    session.start()
-    while not session.wait(POLL_SECONDS):
-        if engine.test_break() and not cancelled:
-            cancelled = True
-            session.cancel()
-        progress = session.progress()
-        engine.update_progress(fraction(progress, settings.seconds))
-        engine.update_stats("", f"Light transport | {status(progress)}")
-    session.finish()
+    cancelled = run_to_end(engine, session, settings.seconds, "Light transport | ")
     stats = session.stats() | {"cancelled": cancelled, "seed": settings.seed}
     if stats["samples"] == 0:
         raise RenderRefused("The capture was stopped before its first sample")

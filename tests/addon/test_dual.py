@@ -160,7 +160,7 @@ def test_wrong_names_and_files(projector, tmp_path):
     with pytest.raises(RuntimeError, match="capture the light transport first"):
         bpy.ops.janus.relight()
     (tmp_path / "no.npz").write_text("nothing")
-    with pytest.raises(RuntimeError, match="no light transport matrix"):
+    with pytest.raises(RuntimeError, match="not a light transport matrix"):
         bpy.ops.janus.show_dual(filepath=str(tmp_path / "no.npz"))
     with pytest.raises(RuntimeError, match="folder"):
         bpy.ops.janus.capture_transport(filepath=str(tmp_path / "folder" / "t.npz"))

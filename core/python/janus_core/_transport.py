@@ -3,19 +3,15 @@
 
 from __future__ import annotations
 
-import io
-import json
 import os
-import zipfile
-import zlib
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ._core import Error, IoError
+from ._core import IoError
+from ._files import read_array, reading, write
 from ._products import Products, root_size
-from .capture import _reason, _replacing
 
 FORMAT, VERSION = "janus-transport", 1
 _ARRAYS = {
@@ -160,60 +156,26 @@ class TransportMatrix:
             "camera": self.camera,
             **{name: getattr(self, name) for name in _NUMBERS},
         }
-        try:
-            with (
-                _replacing(path) as file,
-                zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive,
-            ):
-                archive.writestr("transport.json", json.dumps(description, indent=1))
-                for name in _ARRAYS:
-                    with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
-                        array = getattr(self, name)
-                        np.lib.format.write_array(member, array, allow_pickle=False)
-        except (OSError, TypeError, ValueError) as error:
-            raise IoError(f"cannot write {os.fspath(path)}: {_reason(error)}") from error
+        arrays = {name: getattr(self, name) for name in _ARRAYS}
+        write(path, "transport.json", description, arrays, level=1)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> TransportMatrix:
         """What save() has written. Raises IoError, which names the file, for anything else."""
         name = os.fspath(path)
-        foreign = IoError(f"cannot read {name}: it is no light transport matrix of Janus")
-        try:
-            with zipfile.ZipFile(name) as archive:
-                if "transport.json" not in archive.namelist():
-                    raise foreign
-                described = json.loads(archive.read("transport.json"))
-                if not isinstance(described, dict) or described.get("format") != FORMAT:
-                    raise foreign
-                if described.get("version") != VERSION:
-                    raise IoError(
-                        f"cannot read {name}: version {described.get('version')} of the format is "
-                        f"not known here, only {VERSION}"
-                    )
-                arrays = {name: described[name] for name in _NUMBERS}
-                for member in _ARRAYS:
-                    content = io.BytesIO(archive.read(f"{member}.npy"))
-                    arrays[member] = np.lib.format.read_array(content, allow_pickle=False)
-                size = described["camera_size"]
-                return cls(arrays, size, described["projector"], described["camera"])
-        except Error:
-            raise
-        except zipfile.BadZipFile as error:
-            raise foreign from error
-        except OSError as error:
-            raise IoError(f"cannot read {name}: {_reason(error)}") from error
-        except (
-            AttributeError,  # all that wrong data can do to the lines that read it
-            EOFError,
-            LookupError,
-            MemoryError,
-            OverflowError,
-            RuntimeError,
-            TypeError,
-            ValueError,
-            zlib.error,
-        ) as error:
-            raise IoError(f"cannot read {name}: it is damaged ({_reason(error)})") from error
+        with reading(name, "a light transport matrix of Janus", "transport.json", FORMAT) as (
+            described,
+            archive,
+        ):
+            if described.get("version") != VERSION:
+                raise IoError(
+                    f"cannot read {name}: version {described.get('version')} of the format is "
+                    f"not known here, only {VERSION}"
+                )
+            arrays = {key: described[key] for key in _NUMBERS}
+            arrays |= {key: read_array(archive, key) for key in _ARRAYS}
+            size = described["camera_size"]
+            return cls(arrays, size, described["projector"], described["camera"])
 
     def _check(self) -> None:
         width, height = self.camera_size

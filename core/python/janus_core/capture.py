@@ -7,19 +7,15 @@ arrays as .npy members, which numpy.load() opens as well. Nothing in it is ever 
 
 from __future__ import annotations
 
-import contextlib
-import io
-import json
 import os
-import secrets
 import zipfile
-import zlib
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from . import Error, IoError, RenderSettings, Scene, SceneBuilder, __version__
+from . import IoError, RenderSettings, Scene, SceneBuilder, __version__
+from ._files import read_array, reading, write
 
 __all__ = ["CapturingBuilder", "load"]
 
@@ -147,15 +143,7 @@ class CapturingBuilder:
         """
         description, arrays = self._describe()
         description["settings"] = settings.to_dict()
-        try:
-            text = json.dumps(description, default=_plain, indent=1)
-            with _replacing(path) as file, zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as zip_:
-                zip_.writestr("scene.json", text)
-                for name, array in arrays.items():
-                    with zip_.open(f"{name}.npy", "w", force_zip64=True) as member:
-                        np.lib.format.write_array(member, array, allow_pickle=False)
-        except (OSError, ValueError, TypeError) as error:
-            raise IoError(f"cannot write {os.fspath(path)}: {_reason(error)}") from error
+        write(path, "scene.json", description, arrays)
 
     def _set(self, kind: str, key: str, arguments: dict[str, Any]) -> Any:
         result = getattr(self._builder, f"set_{kind}")(key, **arguments)
@@ -230,38 +218,13 @@ def load(path: str | os.PathLike[str]) -> tuple[SceneBuilder, RenderSettings]:
     a scene that SceneBuilder refuses.
     """
     name = os.fspath(path)
-    try:
-        with zipfile.ZipFile(name) as archive:
-            if "scene.json" not in archive.namelist():
-                raise IoError(f"cannot read {name}: it is not a capture of Janus")
-            description = json.loads(archive.read("scene.json"))
-            if not isinstance(description, dict) or description.get("format") != FORMAT:
-                raise IoError(f"cannot read {name}: it is not a capture of Janus")
-            if description.get("version") not in range(1, VERSION + 1):
-                raise IoError(
-                    f"cannot read {name}: it has version {description.get('version')} of the "
-                    f"format, this is janus_core {__version__} for version {VERSION}"
-                )
-            return _build(description, archive)
-    except Error:
-        raise
-    except zipfile.BadZipFile as error:
-        raise IoError(f"cannot read {name}: it is not a capture of Janus, or damaged") from error
-    except OSError as error:
-        raise IoError(f"cannot read {name}: {_reason(error)}") from error
-    except (
-        ArithmeticError,  # all that wrong data can do to the lines that read it
-        AttributeError,
-        EOFError,
-        LookupError,
-        MemoryError,
-        RuntimeError,
-        TypeError,
-        ValueError,
-        zipfile.LargeZipFile,
-        zlib.error,
-    ) as error:
-        raise IoError(f"cannot read {name}: it is damaged ({_reason(error)})") from error
+    with reading(name, "a capture of Janus", "scene.json", FORMAT) as (description, archive):
+        if description.get("version") not in range(1, VERSION + 1):
+            raise IoError(
+                f"cannot read {name}: it has version {description.get('version')} of the "
+                f"format, this is janus_core {__version__} for version {VERSION}"
+            )
+        return _build(description, archive)
 
 
 def _build(
@@ -270,17 +233,19 @@ def _build(
     builder = SceneBuilder()
     for kind in _ARRAYS:
         for key, item in description.get(kind, {}).items():
-            arrays = {name: _array(archive, member) for name, member in item.pop("arrays").items()}
+            arrays = {
+                name: read_array(archive, member) for name, member in item.pop("arrays").items()
+            }
             optional = {name: None for name in _ARRAYS[kind][2:]}
             for attribute in item.get("attributes", ()):
                 if "values" in attribute:
-                    attribute["values"] = _array(archive, attribute["values"])
+                    attribute["values"] = read_array(archive, attribute["values"])
             getattr(builder, f"set_{kind}")(key, **optional | item | arrays)
     for kind in ("material", "light"):
         for key, item in description[kind].items():
             getattr(builder, f"set_{kind}")(key, **item)
     instances = description["instance"]
-    transforms = _array(archive, _TRANSFORMS) if instances else ()
+    transforms = read_array(archive, _TRANSFORMS) if instances else ()
     for (key, item), transform in zip(instances.items(), transforms, strict=True):
         builder.set_instance(key, transform=transform, **item)
     if description["world"] is not None:
@@ -289,7 +254,7 @@ def _build(
         builder.set_camera(**description["camera"])
     for kind, items in description.get("motion", {}).items():
         for key, members in items.items():
-            values = {name: _array(archive, member) for name, member in members.items()}
+            values = {name: read_array(archive, member) for name, member in members.items()}
             of_key = () if kind == "camera" else (key,)
             getattr(builder, f"set_{kind}_motion")(*of_key, **values)
     if description.get("shutter") is not None:
@@ -303,12 +268,6 @@ def _build(
     return builder, RenderSettings(**settings)
 
 
-def _array(archive: zipfile.ZipFile, name: str) -> np.ndarray:
-    # The whole member at once: zipfile compares the checksum at its end.
-    content = io.BytesIO(archive.read(f"{name}.npy"))
-    return np.lib.format.read_array(content, allow_pickle=False)
-
-
 def _own(value: Any) -> Any:
     """A deep copy, with arrays as they are and every other sequence as a list."""
     if isinstance(value, np.ndarray):
@@ -318,32 +277,3 @@ def _own(value: Any) -> Any:
     if value is None or isinstance(value, str | int | float | np.generic):
         return value
     return [_own(item) for item in value]
-
-
-def _plain(value: Any) -> Any:
-    """What json does not know as what it knows: NumPy's numbers and arrays."""
-    return value.tolist()
-
-
-def _reason(error: BaseException) -> str:
-    if isinstance(error, OSError) and error.strerror:
-        return error.strerror
-    return str(error) or type(error).__name__
-
-
-@contextlib.contextmanager
-def _replacing(path: str | os.PathLike[str]):
-    """A binary file that takes the place of `path` if all goes well, and vanishes otherwise."""
-    target = os.path.realpath(path)
-    if os.path.exists(target) and not os.path.isfile(target):
-        raise OSError(f"{target} is not a regular file")
-    folder, name = os.path.split(target)
-    temporary = os.path.join(folder, f".{name[:60]}.{os.getpid()}-{secrets.token_hex(4)}.tmp")
-    try:
-        with open(temporary, "xb") as file:
-            yield file
-        os.replace(temporary, target)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            os.unlink(temporary)
-        raise

@@ -39,6 +39,25 @@ TEST(MotionBlur, IsTheSameByAllIntegrators) {
   expect_integrators_agree(scene, 48, true);
 }
 
+// A lamp that moves through a pattern of light: where to look for it is known from one time alone.
+TEST(MotionBlur, IsTheSameOfLightThatVaries) {
+  NodeGraph pattern = emission(Rgb(1), 6);
+  pattern.nodes.push_back(node("Place", "NEW_GEOMETRY", {}));
+  pattern.nodes.push_back(node("Pattern", "TEX_CHECKER",
+                               {{"Vector", link("Place", "Position")},
+                                {"Color1", vec4(1, 0.9f, 0.7f, 1)},
+                                {"Color2", vec4(0.4f)},
+                                {"Scale", 6.0f}}));
+  pattern.nodes.front().inputs["Color"] = link("Pattern", "Color");
+  SceneKit kit = room();
+  kit.add("lamp", plane(0.5f, 0.5f), pattern);
+  kit.builder.set_instance_motion("lamp",
+                                  {translation({-0.4f, 0, 0.8f}), translation({0.5f, 0.2f, 0.7f})});
+  const auto scene = kit.build();
+  EXPECT_TRUE(scene->diagnostics.empty());
+  expect_integrators_agree(scene, 192, true);
+}
+
 TEST(MotionBlur, IsTheSameByClassicBdpt) {
   RenderSettings settings = small_picture(IntegratorType::Bdpt, samples(72));
   settings.connection_mode = ConnectionMode::Classic;

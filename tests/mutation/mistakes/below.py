@@ -14,6 +14,15 @@ TECHNIQUES = f"{ORACLE}:*SubsurfaceAgreement*:*SingleTechniques*subsurface*"
 
 BELOW = (
     one(
+        "walks-below-that-are-alike",
+        0,
+        "camera walks think that light walks go below a surface with the same density",
+        TECHNIQUES,
+        "core/janus/path/subsurface.cpp",
+        "ratio = walk.reverse(*other, upper_normal(v.hit, arrival)).pdf_ratio *",
+        "ratio =",
+    ),
+    one(
         "albedo-of-one-end",
         0,
         "light walks take the medium's scale for 1",

@@ -21,6 +21,15 @@ MOTION_AND_LINKING = (
         "!((false && moves(scene, instance)) ||",
     ),
     one(
+        "moving-lights-in-the-dark",
+        0,
+        "what varies on a surface that moves and shines is never looked for",
+        MOTION,
+        "core/janus/light/mesh_light.h",
+        "return slot_[primitive] == kDark ? Rgb(0.0f) : triangle(primitive).radiance;",
+        "return Rgb(0.0f);",
+    ),
+    one(
         "waves-of-one-time",
         0,
         "all waves of a pass see the same time",
