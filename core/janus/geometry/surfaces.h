@@ -68,7 +68,7 @@ class Surfaces {
     } else {
       reshading.program = &program;
       reshading.point = point(hit, view);
-      program.run(reshading.point, result);
+      reshading.run(result);
       result.bsdf.set_kind(surfaces_[hit.material].kind);
     }
   }

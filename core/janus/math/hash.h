@@ -28,11 +28,12 @@ inline uint64_t mix64(uint64_t x) {
   return x;
 }
 
-// Jenkins' lookup3 of one to four words: Cycles' hash.
-template <size_t N>
-constexpr uint32_t jenkins_hash(const std::array<uint32_t, N>& words) {
+// Jenkins' lookup3 of one to four words: Cycles' hash. Words may be vectors of uint32_t, too.
+template <class Word, size_t N>
+constexpr Word jenkins_hash(const std::array<Word, N>& words) {
   static_assert(N >= 1 && N <= 4);
-  uint32_t a = 0xdeadbeefU + (static_cast<uint32_t>(N) << 2) + 13U, b = a, c = a;
+  const auto rotated = [](const Word& x, int bits) { return (x << bits) | (x >> (32 - bits)); };
+  Word a = Word{} + (0xdeadbeefU + (static_cast<uint32_t>(N) << 2) + 13U), b = a, c = a;
   a += words[0];
   if constexpr (N > 1) {
     b += words[1];
@@ -41,8 +42,8 @@ constexpr uint32_t jenkins_hash(const std::array<uint32_t, N>& words) {
     c += words[2];
   }
   if constexpr (N > 3) {
-    const auto stir = [](uint32_t& to, uint32_t& from, uint32_t& next, int bits) {
-      to = (to - from) ^ std::rotl(from, bits);
+    const auto stir = [&](Word& to, Word& from, const Word& next, int bits) {
+      to = (to - from) ^ rotated(from, bits);
       from += next;
     };
     stir(a, c, b, 4);
@@ -53,8 +54,8 @@ constexpr uint32_t jenkins_hash(const std::array<uint32_t, N>& words) {
     stir(c, b, a, 4);
     a += words[3];
   }
-  const auto mix = [](uint32_t& to, uint32_t from, int bits) {
-    to = (to ^ from) - std::rotl(from, bits);
+  const auto mix = [&](Word& to, const Word& from, int bits) {
+    to = (to ^ from) - rotated(from, bits);
   };
   mix(c, b, 14);
   mix(a, c, 11);

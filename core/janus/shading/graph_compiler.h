@@ -103,6 +103,8 @@ class GraphCompiler {
   template <class Read>
   void for_each_result(Read&& read) const;
   void mark_used(std::vector<bool>& used) const;
+  void move_view_back(const std::vector<bool>& used);
+  std::vector<uint32_t> kept_values(const std::vector<bool>& used) const;
   void assign_registers(const std::vector<bool>& used);
 
   const NodeGraph& graph_;
@@ -118,7 +120,9 @@ class GraphCompiler {
   std::vector<AovStep> aovs_;
   std::optional<Value> bumped_normal_;
   size_t bump_steps_ = 0;  // the first ones, which make it
-  int lobes_ = 0;          // at most
+  size_t side_steps_ = 0;  // the first ones, which do not depend on the direction of view
+  bool depends_on_view_ = false;
+  int lobes_ = 0;  // at most
   std::map<std::tuple<uint32_t, uint32_t, uint32_t, SocketType>, Value> constants_;
   std::map<std::tuple<Kernel, std::vector<uint32_t>, uint32_t, uint16_t>, Value> equal_;
   std::map<NodeAt, std::map<std::string, Value, std::less<>>> outputs_;

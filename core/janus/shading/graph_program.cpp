@@ -177,6 +177,7 @@ void GraphCompiler::aov(const NodeReader& reader, uint32_t number) {
 Program GraphCompiler::finish() {
   std::vector<bool> used(values_.size(), false);
   mark_used(used);
+  move_view_back(used);
   assign_registers(used);
   Bsdf bsdf;
   for (const Lobe& lobe : program_.lobes) {
@@ -220,6 +221,47 @@ void GraphCompiler::mark_used(std::vector<bool>& used) const {
   }
 }
 
+// Sets the steps that depend on the direction of view behind all others, which then need not be run
+// again for another one.
+void GraphCompiler::move_view_back(const std::vector<bool>& used) {
+  std::vector<bool> by_view(values_.size(), false);
+  for (const Step& step : steps_) {
+    by_view[step.result.index] =
+        used[step.result.index] &&
+        (step.operation.dependence == Dependence::View ||
+         std::ranges::any_of(step.operands, [&](Value v) { return by_view[v.index]; }));
+  }
+  depends_on_view_ =
+      program_.dependence == Dependence::View || std::ranges::find(by_view, true) != by_view.end();
+  const auto fixed = [&](const Step& step) { return !by_view[step.result.index]; };
+  const auto bumped = steps_.begin() + static_cast<ptrdiff_t>(bump_steps_);
+  if (std::all_of(steps_.begin(), bumped, fixed)) {
+    side_steps_ =
+        static_cast<size_t>(std::stable_partition(bumped, steps_.end(), fixed) - steps_.begin());
+  }
+}
+
+// What the first steps leave to others, in the order of the steps.
+std::vector<uint32_t> GraphCompiler::kept_values(const std::vector<bool>& used) const {
+  std::vector<bool> read(values_.size(), false);
+  for_each_result([&](Value value) { read[value.index] = true; });
+  for (size_t s = side_steps_; s < steps_.size(); ++s) {
+    for (const Value operand : steps_[s].operands) {
+      read[operand.index] = read[operand.index] || used[steps_[s].result.index];
+    }
+  }
+  std::vector<uint32_t> kept;
+  if (!depends_on_view_ || side_steps_ < bump_steps_) {
+    return kept;
+  }
+  for (size_t s = 0; s < side_steps_; ++s) {
+    if (const uint32_t index = steps_[s].result.index; read[index]) {
+      kept.push_back(index);
+    }
+  }
+  return kept;
+}
+
 void GraphCompiler::assign_registers(const std::vector<bool>& used) {
   std::vector<uint32_t> place(values_.size(), 0);
   for (uint32_t i = 0; i < values_.size(); ++i) {
@@ -242,6 +284,17 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
   }
   for_each_result([&](Value value) { last[value.index] = kAlways; });
   size_t top = program_.constants.size();
+  std::vector<bool> placed(values_.size(), false);
+  for (const uint32_t index : kept_values(used)) {
+    place[index] = static_cast<uint32_t>(top);
+    top += is_vector(values_[index].type) ? 3 : 1;
+    placed[index] = true;
+    last[index] = kAlways;
+  }
+  if (const size_t kept = top - program_.constants.size(); kept <= kMaxKept) {
+    program_.first_kept = static_cast<uint16_t>(program_.constants.size());
+    program_.kept_count = static_cast<uint16_t>(kept);
+  }
   std::vector<uint32_t> free[2];  // numbers, vectors
   std::set<uint32_t> asked;       // operands whose prefetches are there
   for (size_t s = 0; s < steps_.size(); ++s) {
@@ -251,7 +304,9 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
     }
     const bool vector = is_vector(step.operation.result);
     std::vector<uint32_t>& available = free[vector];
-    if (available.empty()) {
+    if (placed[step.result.index]) {
+      // It has its own.
+    } else if (available.empty()) {
       place[step.result.index] = static_cast<uint32_t>(top);
       top += vector ? 3 : 1;
     } else {
@@ -283,8 +338,14 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
     program_.instructions.push_back({step.operation.kernel, first, step.data,
                                      static_cast<uint16_t>(place[step.result.index]), step.at});
     program_.dependence = std::max(program_.dependence, step.operation.dependence);
+    const auto done = static_cast<uint32_t>(program_.instructions.size());
     if (s < bump_steps_) {
-      program_.bump_instructions = static_cast<uint32_t>(program_.instructions.size());
+      program_.bump_instructions = done;
+    }
+    if (s < side_steps_) {
+      program_.side_instructions = done;
+    } else {
+      program_.view_beside |= step.at != 0;
     }
   }
   program_.bumped_normal = bumped_normal_ ? static_cast<uint16_t>(place[bumped_normal_->index]) : 0;
@@ -293,7 +354,8 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
                             "the shader is too large; what varies over the surface is left out"});
     program_.instructions.clear();
     program_.constants.clear();
-    program_.bump_instructions = 0;
+    program_.bump_instructions = program_.side_instructions = 0;
+    program_.kept_count = 0;
     program_.varying_emission = program_.varying_transparency = program_.varying_holdout = false;
     return;
   }

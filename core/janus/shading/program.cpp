@@ -51,7 +51,7 @@ void Program::fill_bumped(ShadingPoint& point, float* r) const {
   execute({r, points, *this}, bump_instructions, instructions.size());
 }
 
-void Program::run(const ShadingPoint& point, ShadingResult& result) const {
+void Program::run(const ShadingPoint& point, ShadingResult& result, float* kept) const {
   if (constant()) {
     place(point.ns, result);
     return;
@@ -65,6 +65,26 @@ void Program::run(const ShadingPoint& point, ShadingResult& result) const {
     fill(point, r);
     close(point, r, result);
   }
+  if (kept) {  // nothing else has written there: see GraphCompiler
+    std::copy_n(r + first_kept, kept_count, kept);
+  }
+}
+
+void Program::run_again(ShadingPoint point, const float* kept, ShadingResult& result) const {
+  float r[kMaxRegisters];
+  std::copy(constants.begin(), constants.end(), r);
+  std::copy_n(kept, kept_count, r + first_kept);
+  if (bump_instructions != 0) {
+    const float* n = r + bumped_normal;
+    point.ns = point.facing(vec3(n[0], n[1], n[2]));
+  }
+  ShadingPoint points[1 + 2 * kMaxFilterWidths];
+  points[0] = point;
+  if (view_beside) {
+    place_beside(points);
+  }
+  execute({r, points, *this}, side_instructions, instructions.size());
+  close(point, r, result);
 }
 
 void Program::close(const ShadingPoint& point, const float* r, ShadingResult& result) const {
@@ -96,7 +116,12 @@ void lobes_for_view(const Reshading& reshading, vec3 view, Bsdf& lobes) {
   ShadingPoint point = reshading.point;
   point.view = view;
   ShadingResult result;
-  reshading.program->run(point, result);
+  const vec3 seen = view_of(reshading);
+  if (reshading.program->kept_count > 0 && dot(view, point.ng) * dot(seen, point.ng) > 0.0f) {
+    reshading.program->run_again(point, reshading.kept, result);
+  } else {
+    reshading.program->run(point, result);
+  }
   lobes = result.bsdf;
 }
 

@@ -4,6 +4,7 @@
 // registers, and closures that read their parameters from registers.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -39,6 +40,8 @@ inline constexpr int kMaxFilterWidths = 8;
 // before its displacement bumps it; the two beside it follow.
 inline constexpr uint16_t kUnbumped = 1 + 2 * kMaxFilterWidths;
 inline constexpr float kBumpWidth = 0.1f;  // pixels to them: Cycles' filter width
+// Of what a run keeps for other views of its point.
+inline constexpr int kMaxKept = 64;
 
 // The state of a run. Registers hold one float; a vector or colour takes three in a row.
 struct RunState {
@@ -108,6 +111,12 @@ class Program {
   // Of the first instructions: they make the normal of the surface, which all others see.
   uint32_t bump_instructions = 0;
   uint16_t bumped_normal = 0;  // its register
+  // Of a program that depends on the view: the first instructions, which depend on its side at
+  // most, and the registers that they leave to the others and to the closures. None are kept where
+  // they are too many, or where the view bumps the surface.
+  uint32_t side_instructions = 0;
+  uint16_t first_kept = 0, kept_count = 0;
+  bool view_beside = false;  // some of the others read points beside the point
 
   // --- Of a program that does nothing else.
   std::vector<AovWrite> aovs;
@@ -136,7 +145,10 @@ class Program {
     result.ns = normal;
   }
 
-  void run(const ShadingPoint& point, ShadingResult& result) const;
+  // `kept`: where to write kept_count floats; null: nobody asks for them.
+  void run(const ShadingPoint& point, ShadingResult& result, float* kept = nullptr) const;
+  // The same for another direction on the same side of a point where `kept` was written.
+  void run_again(ShadingPoint point, const float* kept, ShadingResult& result) const;
 
   // Calls write(aov, color, value) for each of `aovs`. What is no number is 0.
   template <class Write>
@@ -172,6 +184,21 @@ class Program {
 struct Reshading {
   const Program* program = nullptr;  // null: it does not depend on the view
   ShadingPoint point;
+  float kept[kMaxKept];  // by its run; not initialised beyond the program's count
+
+  Reshading() = default;
+  Reshading(const Reshading& other) { *this = other; }
+  // A copy costs what is kept.
+  Reshading& operator=(const Reshading& other) {
+    program = other.program;
+    if (program) {
+      point = other.point;
+      std::copy_n(other.kept, program->kept_count, kept);
+    }
+    return *this;
+  }
+
+  void run(ShadingResult& result) { program->run(point, result, kept); }
 };
 
 }  // namespace janus

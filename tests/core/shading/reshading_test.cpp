@@ -3,6 +3,7 @@
 // Surfaces whose lobes depend on the view: sampling and evaluation fit together from both sides.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "janus/math/warp.h"
@@ -35,13 +36,14 @@ class Reshadings : public ::testing::TestWithParam<TransportMode> {};
 TEST_P(Reshadings, SampledWeightsIntegrateTheValue) {
   const TransportMode mode = GetParam();
   const Program program = coated();
-  Reshading reshading{&program, {}};
+  Reshading reshading;
+  reshading.program = &program;
   reshading.point.ns = reshading.point.ng = vec3(0, 0, 1);
   for (const float z : {0.95f, 0.5f, 0.15f}) {
     const vec3 from(std::sqrt(1.0f - z * z), 0, z);
     reshading.point.view = from;
     ShadingResult shading;
-    program.run(reshading.point, shading);
+    reshading.run(shading);
     const BsdfView bsdf = shading.bsdf.view(vec3(0, 0, 1), vec3(0, 0, 1), &reshading);
     std::mt19937 random(5);
     std::uniform_real_distribution<float> uniform;
@@ -63,6 +65,89 @@ TEST_P(Reshadings, SampledWeightsIntegrateTheValue) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, Reshadings,
                          ::testing::Values(TransportMode::Radiance, TransportMode::Importance));
+
+// Colours of a noise, bumped by it, under gloss that Fresnel and facing decide; `displaced`: the
+// surface itself is bumped, too; `bent`: bumped by what depends on the view, instead.
+Program layered(bool displaced, bool bent) {
+  NodeGraph graph;
+  graph.nodes = {
+      node("Place", "NEW_GEOMETRY", {}),
+      node("Noise", "TEX_NOISE", {{"Vector", link("Place", "Position")}, {"Scale", 3.0f}}),
+      node("Bump", "BUMP", {{"Height", link("Noise", "Fac")}, {"Strength", 0.5f}}),
+      node("Fresnel", "FRESNEL", {{"Normal", link("Bump", "Normal")}}),
+      node("Weight", "LAYER_WEIGHT", {{"Blend", link("Noise", "Fac")}}),
+      node("Ripple", "BUMP", {{"Height", link("Weight", "Facing")}}),
+      node("A", "BSDF_DIFFUSE",
+           {{"Color", link("Noise", "Color")},
+            {"Normal", link(bent ? "Ripple" : "Bump", "Normal")}}),
+      node("B", "BSDF_GLOSSY",
+           {{"Color", vec4(0.9f)}, {"Roughness", link("Weight", "Facing")}, {"Anisotropy", 0.5f}}),
+      node("Mix", "MIX_SHADER",
+           {{"Fac", link("Fresnel", "Fac")}, {"Shader", link("A")}, {"Shader_001", link("B")}}),
+      node("Up", "DISPLACEMENT", {{"Height", link("Noise", "Fac")}, {"Scale", 0.1f}})};
+  graph.surface = NodeLink{"Mix", "Shader"};
+  if (displaced) {
+    graph.displacement = NodeLink{"Up", "Displacement"};
+  }
+  Diagnostics diagnostics;
+  Program program = compile(graph, "Layered", {}, diagnostics);
+  EXPECT_TRUE(diagnostics.empty()) << diagnostics.front().message;
+  return program;
+}
+
+bool same(std::span<const Lobe> a, std::span<const Lobe> b) {
+  const auto alike = [](const Lobe& x, const Lobe& y) {
+    return x.weight == y.weight && x.color == y.color && x.normal == y.normal &&
+           x.alpha == y.alpha && x.alpha_y == y.alpha_y && x.tangent == y.tangent &&
+           x.pmf_normal == y.pmf_normal && x.type == y.type;
+  };
+  return std::ranges::equal(a, b, alike);
+}
+
+// What a run keeps for another view is all that the other view needs.
+TEST(RunAgain, IsLikeANewRun) {
+  const ObjectData object;
+  for (const bool displaced : {false, true}) {
+    for (const bool bent : {false, true}) {
+      const Program program = layered(displaced, bent);
+      EXPECT_EQ(program.dependence, Dependence::View);
+      EXPECT_GT(program.kept_count, 0);
+      EXPECT_GT(program.side_instructions, program.bump_instructions);
+      EXPECT_GT(program.instructions.size(), program.side_instructions);
+      EXPECT_EQ(program.view_beside, bent);
+      Reshading reshading;
+      reshading.program = &program;
+      ShadingPoint& point = reshading.point;
+      point = {};
+      point.object = &object;
+      point.ns = point.ng = vec3(0, 0, 1);
+      point.edge_u = vec3(1, 0, 0);
+      point.edge_v = vec3(0, 1, 0);
+      point.footprint = 0.01f;
+      std::mt19937 random(7);
+      std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+      const auto direction = [&] {
+        return normalize(vec3(uniform(random), uniform(random), uniform(random)));
+      };
+      int differ = 0;
+      for (int i = 0; i < 200; ++i) {
+        point.p = 10.0f * direction();
+        point.view = direction();
+        ShadingResult first, fresh;
+        reshading.run(first);
+        const Reshading copy = reshading;
+        ShadingPoint other = point;
+        other.view = direction();
+        program.run(other, fresh);
+        Bsdf again;
+        lobes_for_view(copy, other.view, again);
+        differ += same(first.bsdf.lobes(), fresh.bsdf.lobes()) ? 0 : 1;
+        ASSERT_TRUE(same(again.lobes(), fresh.bsdf.lobes())) << displaced << bent << i;
+      }
+      EXPECT_GT(differ, 150);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace janus::test
