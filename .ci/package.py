@@ -6,7 +6,9 @@ The wheel has _core once per Python version, side by side, and one folder of pri
 (Embree and TBB from Debian). A `blender` binary has another Embree and TBB in the same process, and
 the dynamic linker binds by symbol name: our module would silently call Blender's Embree. So every
 symbol of those libraries is renamed (prefix janus_), in the libraries and in our module.
-OpenEXR has the same problem, and Blender writes its own files: _exr stays out of this wheel.
+And they ask for functions of the C library of the machine that builds; where those are newer than
+the Blenders' own floor, a small library of ours stands in for them (older_systems.cpp).
+OpenEXR has the same problem of names, and Blender writes its own files: _exr stays out of this wheel.
 `pip install .` builds a wheel with it, for use without Blender.
 """
 
@@ -15,12 +17,16 @@ import hashlib
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import python_headers
+from elftools.elf.elffile import ELFFile
+from elftools.elf.gnuversions import Version
 
 ROOT = Path(__file__).resolve().parent.parent
 DIST = ROOT / "dist"
@@ -31,10 +37,12 @@ PREFIX = "janus_"
 # The symbols of Embree and TBB, which Blender has too; also the weak ones that TBB looks for in
 # tbbmalloc and tbbbind, so that it cannot find Blender's.
 FOREIGN = re.compile(r"^(rtc[A-Z]|TBB_|__TBB_|__RML_|scalable_)|3tbb")
-# What may come from the system: the part of the manylinux policy that we use, and its versions.
+# What may come from the system: the part of the manylinux policy that we use, and its versions
+# (glibc 2.28 is what Blender 4.2 and newer ask for; it came with GCC 8).
 SYSTEM = re.compile(r"^(ld-linux-x86-64|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+))\.so\.\d+$")
-NEWEST = {"GLIBC": (2, 36), "GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13), "GCC": (12, 0, 0)}
-TAG = "py3-none-manylinux_2_36_x86_64"
+NEWEST = {"GLIBC": (2, 28), "GLIBCXX": (3, 4, 25), "CXXABI": (1, 3, 11), "GCC": (8, 0, 0)}
+TAG = "py3-none-manylinux_2_28_x86_64"
+WEAK, VNA_FLAGS = 2, 4  # VER_FLG_WEAK; where it stands in an entry of .gnu.version_r
 TIME = (1980, 1, 1, 0, 0, 0)  # the same input gives the same archive
 
 
@@ -65,6 +73,13 @@ def symbols(file: Path) -> list[tuple[str, str, str]]:
         name, _, version = name.partition("@")
         found.append((kind, name, version.lstrip("@")))
     return found
+
+
+def too_new(version: str) -> bool:
+    """Of a symbol's version, such as GLIBC_2.34."""
+    family, _, number = version.partition("_")
+    numbers = tuple(int(n) for n in number.split(".") if n.isdigit())
+    return family in NEWEST and numbers > NEWEST[family]
 
 
 def needed(file: Path) -> list[str]:
@@ -109,17 +124,56 @@ def bundle_libraries(tree: Path) -> None:
             shutil.copy(match[2], private[match[1]])
             private[match[1]].chmod(0o755)
 
+    older = build_older_systems(folder)
     files = [*modules, *private.values()]
     names = {name for file in files for _, name, _ in symbols(file) if FOREIGN.search(name)}
+    replaced = {name for file in files for _, name, version in symbols(file) if too_new(version)}
     renames = WORK / "renames.txt"
-    renames.write_text("".join(f"{name} {PREFIX}{name}\n" for name in sorted(names)))
+    renames.write_text("".join(f"{name} {PREFIX}{name}\n" for name in sorted(names | replaced)))
     for file in files:
         run("patchelf", "--rename-dynamic-symbols", renames, file)
+        for name in sorted(replaced):
+            run("patchelf", "--clear-symbol-version", PREFIX + name, file)
+        run("patchelf", "--add-needed", older.name, file)
         for soname, copy in private.items():
             run("patchelf", "--replace-needed", soname, copy.name, file)
         run("patchelf", "--set-rpath", "$ORIGIN/_libs" if file in modules else "$ORIGIN", file)
+        forget_versions(file)
     for copy in private.values():
         run("patchelf", "--set-soname", copy.name, copy)
+
+
+def build_older_systems(folder: Path) -> Path:
+    library = folder / "libjanus_older.so"
+    flags = ("-std=c++20", "-O2", "-fPIC", "-shared", "-Wall", "-Wextra", "-Werror", "-s")
+    soname = f"-Wl,-soname,{library.name}"
+    run("c++", *flags, soname, ROOT / ".ci/older_systems.cpp", "-o", library)
+    # Where threads and dlopen() were before glibc 2.34.
+    run("patchelf", "--add-needed", "libpthread.so.0", "--add-needed", "libdl.so.2", library)
+    return library
+
+
+def required_versions(elf: ELFFile) -> Iterator[tuple[int, Version]]:
+    """(place in the file, entry) of each version that the loader looks for."""
+    section = elf.get_section_by_name(".gnu.version_r")
+    at = section["sh_offset"]
+    for library, versions in section.iter_versions():
+        entry = at + library["vn_aux"]
+        for version in versions:
+            yield entry, version
+            entry += version["vna_next"]
+        at += library["vn_next"]
+
+
+def forget_versions(file: Path) -> None:
+    """Makes versions optional that no symbol asks for any more: the loader looks for all of them."""
+    with file.open("r+b") as stream:
+        elf = ELFFile(stream)
+        used = {symbol["ndx"] for symbol in elf.get_section_by_name(".gnu.version").iter_symbols()}
+        unused = [(at, v) for at, v in required_versions(elf) if v["vna_other"] not in used]
+        for at, version in unused:
+            stream.seek(at + VNA_FLAGS)
+            stream.write(struct.pack("<H", version["vna_flags"] | WEAK))
 
 
 def pack_wheel(tree: Path, version: str) -> Path:
@@ -180,21 +234,21 @@ def pack_extension(wheel: Path, version: str) -> Path:
 
 def check_binary(file: Path, private: dict[str, set[str]]) -> list[str]:
     """What is wrong with one module or library; `private`: our libraries and what they define."""
-    wrong = []
+    with file.open("rb") as stream:
+        versions = [v for _, v in required_versions(ELFFile(stream)) if too_new(v.name)]
+    wrong = [f"insists on {v.name}" for v in versions if not v["vna_flags"] & WEAK]
     defined = set().union(*private.values())
     for library in needed(file):
         if library not in private and not SYSTEM.match(library):
             wrong.append(f"needs {library}, which is neither ours nor the system's")
     for kind, name, version in symbols(file):
-        family, _, number = version.partition("_")
-        numbers = tuple(int(n) for n in number.split(".") if n.isdigit())
         if FOREIGN.search(name) and not name.startswith(PREFIX):
             wrong.append(f"the symbol {name} can clash with Blender's")
         elif kind == "U" and name.startswith(PREFIX) and name not in defined:
             wrong.append(f"nothing defines {name}")
         elif kind == "U" and not version and not re.match(rf"_?Py|{PREFIX}", name):
             wrong.append(f"the symbol {name} could come from anywhere")
-        elif family in NEWEST and numbers > NEWEST[family]:
+        elif too_new(version):
             wrong.append(f"needs {name}@{version}, newer than the wheel's tag allows")
         elif file.name.startswith("_core") and kind not in "Uw" and name != "PyInit__core":
             wrong.append(f"exports {name}")

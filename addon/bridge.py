@@ -6,11 +6,14 @@ registers and can explain itself where the core is missing or does not fit.
 """
 
 import importlib
+import platform
 import sys
 
 import bpy
 
 CORE_SERIES = (0, 1)  # major and minor version of janus_core that this add-on speaks to
+
+OLDEST_SYSTEM = "glibc 2.28 or newer, and libstdc++ of GCC 8 or newer"  # see .ci/package.py
 
 _failure: str | None = None
 
@@ -66,6 +69,9 @@ def _explain(error: Exception) -> str:
     python = ".".join(map(str, sys.version_info[:2]))
     if isinstance(error, ModuleNotFoundError) and (error.name or "").startswith("janus_core"):
         reason = f"there is no render core for Python {python} on {sys.platform}"
+    elif "GLIBC" in str(error):  # what the loader says of a C or C++ library that is too old
+        system = " ".join(platform.libc_ver())
+        reason = f"its render core needs {OLDEST_SYSTEM}, and this system has {system} ({error})"
     else:
         reason = f"its render core does not load ({type(error).__name__}: {error})"
     return (

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The contract with Blender when something goes wrong: DESIGN.md section 8, point by point."""
 
+import platform
 import subprocess
 import sys
 from pathlib import Path
@@ -127,6 +128,18 @@ def test_missing_core_is_explained(scene, monkeypatch):
         bpy.ops.render.render()
     assert "cannot render in Blender" in bridge.failure()
     assert result_pixels().shape == (12, 16, 4)
+
+
+def test_old_system_is_explained(addon, monkeypatch):
+    bridge = part("bridge")
+
+    def too_old(name):
+        raise ImportError("/lib/libm.so.6: version `GLIBC_2.27' not found (required by _core.so)")
+
+    monkeypatch.setattr(bridge.importlib, "import_module", too_old)
+    with pytest.raises(bridge.CoreUnavailable, match="needs glibc 2.28 or newer") as error:
+        bridge.core()
+    assert " ".join(platform.libc_ver()) in str(error.value)
 
 
 def test_broken_core_is_explained(addon, monkeypatch):

@@ -51,3 +51,5 @@ def test_a_library_with_its_own_names_is_refused(wheel: Path, tmp_path: Path):
     wrong = package.check_binary(library, {library.name: set()})
     assert any("rtcNewDevice can clash" in text for text in wrong)
     assert any("needs libtbb.so.12" in text for text in wrong)
+    assert any("newer than the wheel's tag allows" in text for text in wrong)
+    assert any("insists on GLIBC_2.34" in text for text in wrong)
