@@ -62,7 +62,7 @@ def _parser() -> argparse.ArgumentParser:
         "--quality",
         choices=tuple(QUALITIES),
         default="quick",
-        help="quick: some minutes; full: larger, less noise, and some forty minutes",
+        help="quick: eight minutes; full: larger, with less noise, in about an hour",
     )
     add(
         "--resolution",

@@ -11,8 +11,8 @@ LEFT, RIGHT, TOP, BOTTOM = 52, 180, 24, 40  # margins; names of curves are on th
 NAME_HEIGHT = 15
 
 
-def draw(curves: dict[str, list[list[float]]]) -> str:
-    """`curves`: by name, points that begin with seconds and relMSE, both above 0."""
+def draw(curves: dict[str, list[tuple[float, float]]]) -> str:
+    """`curves`: by name, points of seconds and trimmed relMSE; what is 0 is left out."""
     points = [point for curve in curves.values() for point in curve if point[0] > 0 < point[1]]
     if not points:
         return ""
@@ -34,11 +34,11 @@ def draw(curves: dict[str, list[list[float]]]) -> str:
         parts.append(f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y}" y2="{y}"/>')
         parts.append(_text(LEFT - 6, y + 4, f"{10.0**power:g}", "end"))
     parts.append(_text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 6, "time of the render", "middle"))
-    parts.append(_text(LEFT, TOP - 10, "relMSE", "start"))
+    parts.append(_text(LEFT, TOP - 10, "relMSE, trimmed", "start"))
 
     names = []  # [y, number, name]
     for number, (name, curve) in enumerate(curves.items()):
-        line = [place(*point[:2]) for point in curve if point[0] > 0 < point[1]]
+        line = [place(*point) for point in curve if point[0] > 0 < point[1]]
         if not line:
             continue
         path = " ".join(f"{'L' if i else 'M'}{x} {y}" for i, (x, y) in enumerate(line))

@@ -166,7 +166,11 @@ FIGURES: dict[str, Comparison | Classes] = {
             "density 0.",
             "*Look at* the mirror: the ball's reflection stands in a shadow without a caustic, and "
             "no number of samples changes that: with bidirectional path tracing the picture stays "
-            "too dark, which is what *brightness* says in the table. Merging "
+            "too dark, which is what *brightness* says in the table, and *RMSE*. (*relMSE* is mostly "
+            "about the noise of the many dark pixels.) With errors shown instead, what is missing "
+            "is bright: the caustic, and around it the light that the mirror throws onto the floor, "
+            "`LSDE`, which is `LSDSE` in the mirror.",
+            "Merging "
             "([`merge_vertices`](core/janus/path/connect.h)) has the caustic: both walks reach the "
             "floor, the one through the glass, the other by way of the mirror, and if they arrive "
             "within a centimetre of each other, that counts as the same point. It blurs light a "

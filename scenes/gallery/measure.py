@@ -21,6 +21,7 @@ from scenes.driver.arguments import SCENES
 from scenes.gallery.stage import Shot, Stage
 
 FIRST_SEED, REFERENCE_SEED, CURVE_SEED = 1000, 9000, 5000
+CURVE = ("samples", "seconds", "cpu", "relmse", "trimmed")
 PARTS = 4  # that a reference is the mean of
 SEEDS_OF_ONE = 100  # kept apart for each way to render
 
@@ -145,17 +146,17 @@ def cost(shots: list[Shot]) -> dict:
 
 def curve(
     stage: Stage, ways: Mapping[str, Settings], most: float, reference: np.ndarray, say: Say
-) -> dict[str, list[list[float]]]:
-    """By name, [seconds, relMSE, samples] for 1, 2, 4, ... samples, up to about `most` seconds."""
+) -> dict[str, list[dict]]:
+    """By name, errors and costs of 1, 2, 4, ... samples, up to about `most` seconds."""
     say("error over time")
-    points: dict[str, list[list[float]]] = {name: [] for name in ways}
+    points: dict[str, list[dict]] = {name: [] for name in ways}
     for step in range(20):
         for number, (name, way) in enumerate(ways.items()):
             # The next one takes twice as long.
-            if points[name] and 2.0 * points[name][-1][0] > 1.2 * most:
+            if points[name] and 2.0 * points[name][-1]["seconds"] > 1.2 * most:
                 continue
             seed = CURVE_SEED + SEEDS_OF_ONE * number + step
             shot = stage.shoot(**way, samples=1 << step, seconds=0.0, seed=seed)
-            error = relative_error(shot.picture, reference)
-            points[name].append([shot.seconds, error, shot.samples])
+            found = errors([shot], reference)
+            points[name].append({key: found[key] for key in CURVE})
     return points

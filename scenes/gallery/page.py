@@ -25,6 +25,7 @@ GROUPS = {
 # Which pictures are shown first, left and right, if a figure has them.
 FIRST = (("samples-pt", "samples-bdpt"), ("time-bdpt", "time-vcm"), ("all", "opaque"))
 FIRST += (("all", "caustics"),)
+UNEVEN = 1.1  # ratio of processor times that is worth a word
 COLUMNS = ("paths per pixel", "time, s", "CPU, s", "RMSE", "relMSE", "trimmed", "brightness")
 
 
@@ -76,7 +77,16 @@ def _section(figure: dict, link: str) -> str:
     wide = " wide" if figure["width"] > 1.2 * figure["height"] else ""
     beside = _thumbnails(figure)
     if "reference" in figure:
-        beside = _table(figure) + "\n" + curve.draw(figure["curves"])
+        beside = (
+            _table(figure)
+            + "\n"
+            + curve.draw(
+                {
+                    label: [(point["seconds"], point["trimmed"]) for point in points]
+                    for label, points in figure["curves"].items()
+                }
+            )
+        )
     title = escape(figure["title"])
     return f"""<section id="{figure["name"]}">
 <h2>{title}</h2>
@@ -191,8 +201,22 @@ def _about_reference(figure: dict) -> str:
         )
     measured = [p["relmse"] for p in figure["pictures"] if "relmse" in p]
     if reference["relmse"] > 0.1 * min(measured):
-        text += " That is more than a tenth of the smallest error in the table, which is uncertain."
+        text += (
+            " The reference's own error is more than a tenth of the smallest one in the table: "
+            "small differences mean nothing."
+        )
+    if _uneven(figure):
+        text += (
+            " The machine had other work to do, and the ways to render have had unequal shares of "
+            "its processors: see the column CPU."
+        )
     return text
+
+
+def _uneven(figure: dict) -> bool:
+    """Whether equal time has not been equal processor time."""
+    shares = [p["cpu"] / p["seconds"] for p in figure["pictures"] if p["group"] == "time"]
+    return max(shares) > UNEVEN * min(shares)
 
 
 def _thumbnails(figure: dict) -> str:

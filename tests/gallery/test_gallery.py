@@ -119,6 +119,13 @@ def test_light_tracing_sees_no_glass(gallery):
     assert seen["bdpt"]["trimmed"] < seen["pt"]["trimmed"]
 
 
+def test_errors_fall_with_time(gallery):
+    for label, points in gallery.figure("glass")["curves"].items():
+        assert [point["samples"] for point in points] == [1 << i for i in range(len(points))]
+        assert points[-1]["trimmed"] < points[0]["trimmed"], label
+    assert len(gallery.figure("glass")["curves"]) == 4
+
+
 def test_classes_of_paths_add_up(gallery):
     shares = {p["expression"]: p["share"] for p in gallery.figure("classes")["pictures"][1:]}
     assert 0.0 <= shares["LS+DS+E"] < shares["L.*SE"] < 1.0
@@ -184,6 +191,6 @@ def test_numbers(value, text):
 
 
 def test_curves_of_one_point_and_of_none():
-    assert curve.draw({"a": [[0.0, 0.0, 1]]}) == ""
-    one = curve.draw({"a <b>": [[0.5, 0.02, 1]]})
+    assert curve.draw({"a": [(0.0, 0.0)]}) == ""
+    one = curve.draw({"a <b>": [(0.5, 0.02)]})
     assert "a &lt;b&gt;" in one and "nan" not in one
