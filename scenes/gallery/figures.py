@@ -164,19 +164,21 @@ FIGURES: dict[str, Comparison | Classes] = {
             "([`connect_to_camera`](core/janus/path/connect.h)). And there are no two D in a row "
             "to be joined ([`connect_vertices`](core/janus/path/connect.h)). All (s,t) have "
             "density 0.",
-            "*Look at* the mirror: the ball's reflection stands in a shadow without a caustic, and "
-            "no number of samples changes that: with bidirectional path tracing the picture stays "
-            "too dark, which is what *brightness* says in the table, and *RMSE*. (*relMSE* is mostly "
-            "about the noise of the many dark pixels.) With errors shown instead, what is missing "
-            "is bright: the caustic, and around it the light that the mirror throws onto the floor, "
-            "`LSDE`, which is `LSDSE` in the mirror.",
-            "Merging "
-            "([`merge_vertices`](core/janus/path/connect.h)) has the caustic: both walks reach the "
-            "floor, the one through the glass, the other by way of the mirror, and if they arrive "
-            "within a centimetre of each other, that counts as the same point. It blurs light a "
-            "little, a bias that gets smaller with each pass.",
+            "*Look at* the mirror: the ball's reflection stands in a shadow without a caustic, "
+            "and no number of samples changes that: with bidirectional path tracing the picture "
+            "stays too dark, which is what *brightness* says in the table, and *RMSE*. (*relMSE* "
+            "is mostly about the noise of the many dark pixels.) With errors shown instead, what "
+            "is missing is bright: the caustic, and around it the light that the mirror throws "
+            "onto the floor, `LSDE`, which is `LSDSE` in the mirror.",
+            "Merging ([`merge_vertices`](core/janus/path/connect.h)) has the caustic: both walks reach "
+            "the floor, the one through the glass, the other by way of the mirror, and if they "
+            "arrive within a centimetre of each other, that counts as the same point. It blurs "
+            "light a little, a bias that gets smaller with each pass.",
             "The reference is unbiased: the mirror is replaced by a hole in the wall, with a "
-            "mirrored copy of the room behind it. Then the caustic is seen directly.",
+            "mirrored copy of the room behind it. Then the caustic is seen directly. A pool in the "
+            "sun is full of such paths, `LSDSE` (`./dev render pool`): as the sun has a size, a path "
+            "from the eye may hit it by chance, which helps little "
+            "([`SpecularWalks`](core/janus/integrator/specular_walks.h)).",
         ),
         {},
         BEYOND,
