@@ -10,6 +10,7 @@ from pathlib import Path
 from scenes.driver.arguments import ROOT, from_to, resolution
 from scenes.gallery.figures import FIGURES
 
+CLOCKS = ("wall", "cpu")
 SMALLEST, LARGEST = 16, 1024  # pixels on a side
 
 # What the options are that are not given. Seconds: of each picture at equal time, and of all the
@@ -88,6 +89,13 @@ def _parser() -> argparse.ArgumentParser:
         type=from_to(float, 0.02, 7200.0),
         metavar="T",
         help="for each reference (default: 24, full: 240)",
+    )
+    add(
+        "--clock",
+        choices=CLOCKS,
+        default="wall",
+        help="what equal time is: wall time, or that of the processors over the number of threads, "
+        "on a machine that others use as well (default: wall)",
     )
     add(
         "--threads",

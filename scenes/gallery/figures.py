@@ -171,9 +171,9 @@ FIGURES: dict[str, Comparison | Classes] = {
             "is missing is bright: the caustic, and around it the light that the mirror throws "
             "onto the floor, `LSDE`, which is `LSDSE` in the mirror.",
             "Merging ([`merge_vertices`](core/janus/path/connect.h)) has the caustic: both walks "
-            "reach the floor, the one through the glass, the other by way of the mirror, and if they "
-            "arrive within a centimetre of each other, that counts as the same point. It blurs "
-            "light a little, a bias that gets smaller with each pass.",
+            "reach the floor, the one through the glass, the other by way of the mirror, and if "
+            "they arrive within a centimetre of each other, that counts as the same point. It "
+            "blurs light a little, a bias that gets smaller with each pass.",
             "The reference is unbiased: the mirror is replaced by a hole in the wall, with a "
             "mirrored copy of the room behind it. Then the caustic is seen directly. A pool in the "
             "sun is full of such paths, `LSDSE` (`./dev render pool`): as the sun has a size, a "

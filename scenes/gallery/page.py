@@ -25,6 +25,7 @@ GROUPS = {
 # Which pictures are shown first, left and right, if a figure has them.
 FIRST = (("samples-pt", "samples-bdpt"), ("time-bdpt", "time-vcm"), ("all", "opaque"))
 FIRST += (("all", "caustics"),)
+CLOCKS = {"wall": "on the wall", "cpu": "that of the processors over the number of threads"}
 UNEVEN = 1.1  # ratio of processor times that is worth a word
 COLUMNS = ("paths per pixel", "time, s", "CPU, s", "RMSE", "relMSE", "trimmed", "brightness")
 
@@ -82,7 +83,7 @@ def _section(figure: dict, link: str) -> str:
             + "\n"
             + curve.draw(
                 {
-                    label: [(point["seconds"], point["trimmed"]) for point in points]
+                    label: [(point["time"], point["trimmed"]) for point in points]
                     for label, points in figure["curves"].items()
                 }
             )
@@ -215,8 +216,8 @@ def _about_reference(figure: dict) -> str:
 
 def _uneven(figure: dict) -> bool:
     """Whether equal time has not been equal processor time."""
-    shares = [p["cpu"] / p["seconds"] for p in figure["pictures"] if p["group"] == "time"]
-    return max(shares) > UNEVEN * min(shares)
+    times = [picture["cpu"] for picture in figure["pictures"] if picture["group"] == "time"]
+    return max(times) > UNEVEN * min(times)
 
 
 def _thumbnails(figure: dict) -> str:
@@ -246,9 +247,9 @@ def _notes(gallery: dict, link: str) -> str:
         + ".",
         f"Each error is the mean over {seeds} renders with seeds of their own, with its standard "
         "error; the picture shown is the first of them. What is compared alternates, in one "
-        f"process with {made['threads']} threads. *Time* is that of the render alone, by the "
-        "clock, *CPU* that of all threads together: export and building the scene are in neither. "
-        "A render ends with the first whole pass over the picture after its time.",
+        f"process with {made['threads']} threads. *Time* is that of the render alone, on the "
+        "wall, *CPU* that of all threads together: export and building the scene are in neither. "
+        f"Equal time is {CLOCKS[made['clock']]}. Renders end with a whole pass over the picture.",
         "At equal samples a path per pixel is a path from the eye, a path from the light, or one "
         "of each with all pairs of their vertices joined, as in the lecture. *Bidirectional* at "
         "equal time is what Janus does unless told otherwise: light vertices are cached, each "

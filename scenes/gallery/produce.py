@@ -35,7 +35,7 @@ def produce(options: argparse.Namespace) -> None:
     begin = time.monotonic()
     janus = addon.load()
     try:
-        stage = Stage(janus, options.threads)
+        stage = Stage(janus, options.threads, options.clock)
         figures = []
         for number, name in enumerate(options.only, 1):
             said = f"{name} ({number} of {len(options.only)})"
@@ -53,6 +53,7 @@ def produce(options: argparse.Namespace) -> None:
                 "resolution": list(options.resolution),
                 "threads": options.threads or os.cpu_count(),
                 "seeds": options.seeds,
+                "clock": options.clock,
                 "seconds_each": options.seconds,
                 "reference_seconds": options.reference_seconds,
                 "blender": bpy.app.version_string,
@@ -137,7 +138,7 @@ class _Maker:
         options = self._options
         self._set(figure, **figure.reference_variant)
         how = {"integrator": "bdpt"}
-        settings = (self._stage.size, options.reference_seconds, how, figure.second)
+        settings = (self._stage.size, options.reference_seconds, options.clock, how, figure.second)
         settings += (dict(figure.reference_variant),)
         path = measure.reference_path(options.output / "references", figure.scene, *settings)
         seconds = options.reference_seconds

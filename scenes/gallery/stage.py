@@ -7,6 +7,7 @@ Pictures are float32[H, W, 3], linear, the bottom row first.
 from __future__ import annotations
 
 import importlib
+import os
 import tempfile
 import time
 from collections.abc import Callable
@@ -19,6 +20,7 @@ import numpy as np
 from scenes.driver import addon
 
 FOREVER = 1 << 24  # samples, where time is the limit
+MAX_STRETCH = 8.0
 
 
 @dataclass
@@ -26,7 +28,8 @@ class Shot:
     """A picture and what it took, nothing counted but the render itself.
 
     `passes`: by name, of the light path expressions that were asked for. `samples`: whole passes
-    over the picture. `seconds`: by the clock. `cpu`: seconds of all processors together.
+    over the picture. `seconds`: of the wall. `cpu`: seconds of all processors together. `time`: by
+    the clock that was chosen.
     """
 
     picture: np.ndarray
@@ -34,13 +37,19 @@ class Shot:
     samples: int
     seconds: float
     cpu: float
+    time: float
 
 
 class Stage:
-    """The scene that is set: Blender has it, to show pictures, and the core, to render them."""
+    """The scene that is set: Blender has it, to show pictures, and the core, to render them.
 
-    def __init__(self, janus: addon.Addon, threads: int) -> None:
-        self._janus, self._threads = janus, threads
+    `clock`: "wall", or "cpu" for the time of all processors over the number of threads. The core's
+    limit is one of the wall: with "cpu" it is stretched as the render before needed it.
+    """
+
+    def __init__(self, janus: addon.Addon, threads: int, clock: str = "wall") -> None:
+        self._janus, self._threads, self._clock = janus, threads or os.cpu_count() or 1, clock
+        self._stretch = 1.0  # wall time of a second of the clock, lately
 
     def set(
         self,
@@ -77,11 +86,15 @@ class Stage:
         return self._settings.width, self._settings.height
 
     def shoot(self, **changes: object) -> Shot:
-        """A render with the scene's settings but for the changes (see RenderSettings)."""
+        """A render with the scene's settings but for the changes (see RenderSettings).
+
+        `seconds` are those of the clock.
+        """
         import janus_core
 
         if changes.get("seconds"):
-            changes = {"samples": FOREVER, **changes}
+            wall = changes["seconds"] * self._stretch
+            changes = {"samples": FOREVER, **changes, "seconds": wall}
         changes = {"threads": self._threads, **changes}
         settings = janus_core.RenderSettings(**{**self._settings.to_dict(), **changes})
         session = janus_core.RenderSession(self._scene, settings)
@@ -93,7 +106,9 @@ class Stage:
         names = [name for name, _ in settings.expressions]
         passes = {name: session.snapshot(name)[:, :, :3] for name in ["Combined", *names]}
         picture = passes.pop("Combined")
-        return Shot(picture, passes, stats["samples"], stats["seconds"], cpu)
+        taken = cpu / self._threads if self._clock == "cpu" else stats["seconds"]
+        self._stretch = min(max(stats["seconds"] / max(taken, 1e-6), 1.0), MAX_STRETCH)
+        return Shot(picture, passes, stats["samples"], stats["seconds"], cpu, taken)
 
     def save(self, path: Path, picture: np.ndarray) -> None:
         """A PNG through the scene's view transform."""
