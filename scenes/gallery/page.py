@@ -151,7 +151,8 @@ def _options(figure: dict, chosen: str) -> str:
 
 
 def _group(figure: dict, group: str) -> str:
-    return GROUPS[group].format(**figure)
+    text = GROUPS[group].format(**figure)
+    return f"{text} of the processors" if group == "time" and figure["clock"] == "cpu" else text
 
 
 def _table(figure: dict) -> str:

@@ -130,6 +130,7 @@ class _Maker:
                 "path_tracer_relmse": reference.other_own,
             },
             "seconds": seconds,
+            "clock": options.clock,
             "paths_per_pixel": PATHS_PER_PIXEL if figure.at_samples else None,
             "curves": {LABELS[key]: points for key, points in curves.items()},
         }
