@@ -5,13 +5,16 @@
 * includes (C++) and imports (add-on) point one way only, in the order of the lists below;
 * Embree is included by one .cpp, OpenEXR by what belongs to janus_exr, janus_core by bridge.py;
 * every source file starts with its licence and stays short;
-* what the mistakes of `./dev mutate` change is in the source.
+* what the mistakes of `./dev mutate` change is in the source;
+* what the documents name is in the tree (check_docs.py).
 """
 
 import ast
 import re
 import sys
 from pathlib import Path
+
+from check_docs import check_documents
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -162,6 +165,7 @@ def main() -> int:
     for path in cpp + python + build + top:
         check_file(path)
     check_mistakes()
+    check_documents(ROOT, problem)
     print("\n".join(problems) or f"tree: {len(cpp)} C++ and {len(python)} Python files in order")
     return 1 if problems else 0
 

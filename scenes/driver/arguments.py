@@ -118,7 +118,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add("--max-bounces", type=_at_least(int, 0), metavar="N")
     add("--filter", choices=FILTERS, help="pixel filter")
-    add("--resolution", type=_resolution, metavar="WxH", help="in pixels, such as 640x400")
+    add("--resolution", type=resolution, metavar="WxH", help="in pixels, such as 640x400")
     add("--threads", type=_at_least(int, 0), metavar="N", help="0: all")
     add("--seed", type=_at_least(int, 0), metavar="N")
     add("--frame", type=int, metavar="N", help="frame of the animation")
@@ -141,7 +141,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add(
         "--strategies-length",
-        type=_from_to(int, 1, 12),
+        type=from_to(int, 1, 12),
         default=5,
         metavar="N",
         help="edges of the longest paths that are shown (default: 5)",
@@ -162,7 +162,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--dual-light", metavar="NAME", help="the projector (default: the only light that can be)")
     add(
         "--dual-resolution",
-        type=_resolution,
+        type=resolution,
         default=(64, 64),
         metavar="WxH",
         help="pixels of the projector's picture, at most 256x256 (default: 64x64)",
@@ -195,7 +195,7 @@ def _at_least(kind, lowest):
     return convert
 
 
-def _from_to(kind, lowest, highest):
+def from_to(kind, lowest, highest):
     def convert(text: str):
         value = kind(text)
         if not lowest <= value <= highest:
@@ -213,7 +213,7 @@ def _named_expression(text: str) -> tuple[str, str]:
     return name, expression
 
 
-def _resolution(text: str) -> tuple[int, int]:
+def resolution(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d+)[x×](\d+)", text)
     if not match or not all(0 < int(n) <= 65536 for n in match.groups()):
         raise argparse.ArgumentTypeError(f"'{text}' is not WxH, such as 640x400")

@@ -26,7 +26,7 @@ def run(options: argparse.Namespace) -> int:
     """The exit code. Never raises, and leaves no engine registered."""
     addon = None
     try:
-        with _quiet():
+        with quiet():
             if addons.IS_MODULE:
                 bpy.ops.wm.read_factory_settings(use_empty=True)
             if options.engine == "janus":
@@ -36,7 +36,7 @@ def run(options: argparse.Namespace) -> int:
             if addon:
                 passes.prepare(scene, options, addon)
         if options.save:
-            with _quiet():
+            with quiet():
                 bpy.ops.wm.save_as_mainfile(
                     filepath=str(options.save), copy=True, check_existing=False
                 )
@@ -70,7 +70,7 @@ def _render(scene: bpy.types.Scene, options: argparse.Namespace, addon) -> int:
     watch = _Watch(progress)
     begin = time.perf_counter()
     failure = None
-    with _quiet(), watch, _interruptible(addon, interrupted):
+    with quiet(), watch, _interruptible(addon, interrupted):
         try:
             bpy.ops.render.render(write_still=False, scene=scene.name)
         except RuntimeError as error:
@@ -91,7 +91,7 @@ def _render(scene: bpy.types.Scene, options: argparse.Namespace, addon) -> int:
     if not stats["samples"] and interrupted:
         print("stopped before there was a picture", file=sys.stderr)
         return INTERRUPTED
-    with _quiet():
+    with quiet():
         try:
             picture.save(scene, options.output)
             more = passes.save(scene, options, addon) if addon else []
@@ -181,7 +181,7 @@ def _interruptible(addon, interrupted: list[bool]):
 
 
 @contextlib.contextmanager
-def _quiet():
+def quiet():
     """Sends what Blender prints to nowhere; our own words come after, or go to stderr."""
     sys.stdout.flush()
     kept = os.dup(1)

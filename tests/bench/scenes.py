@@ -8,10 +8,10 @@ light tree on, and of its renders with and without path guiding the better ones 
 alternate, seed by seed, because a machine is never quiet. Of each scene, the references take twelve
 minutes, once, and are kept on disk; all the renders take five.
 
-The error is relMSE, with the formula of _reference.py, as mean over the seeds. A second table has
-it without the thousandth of the pixels where it is largest. Neither tells all where some path is
-found by chance alone (a caustic behind glass): in the first, who is lucky enough never to find it
-wins; in the second, who has all the light of a caustic in few pixels.
+The error is relMSE, with the formula of janus_core.errors, as mean over the seeds. A second table
+has it without the thousandth of the pixels where it is largest. Neither tells all where some path
+is found by chance alone (a caustic behind glass): in the first, who is lucky enough never to find
+it wins; in the second, who has all the light of a caustic in few pixels.
 
 LuxCore's BIDIR (roulette off, as it is biased with it) and Mitsuba's path tracer take part where
 the scene is so plain that they can be given exactly the same (_plain.py), if `--peers` names a
@@ -38,7 +38,8 @@ from pathlib import Path
 
 import numpy as np
 from _measure import CapturedScene, Cycles, Peer, Shot, Unavailable
-from _reference import KINDS, Reference, References, relative_error, trimmed_error
+from _reference import KINDS, Reference, References
+from janus_core.errors import relative_error, trimmed_error
 
 SCENES = (
     *("hero", "hero_caustic", "hidden_light", "metal_ring", "ajar_door", "pool"),
