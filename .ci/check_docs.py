@@ -13,7 +13,10 @@ import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-DOCUMENTS = ("README.md", "core/README.md", "core/THEORY.md", "core/LECTURE.md", "scenes/README.md")
+DOCUMENTS = (
+    *("README.md", ".github/CONTRIBUTING.md", "addon/CYCLES.md", "scenes/README.md"),
+    *("core/README.md", "core/THEORY.md", "core/LECTURE.md", "core/DUAL.md", "core/NODES.md"),
+)
 THEORY = "core/THEORY.md"
 SOURCES = (".h", ".cpp", ".py", ".pyi")
 
