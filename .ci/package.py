@@ -8,7 +8,7 @@ the dynamic linker binds by symbol name: our module would silently call Blender'
 symbol of those libraries is renamed (prefix janus_), in the libraries and in our module.
 And they ask for functions of the C library of the machine that builds; where those are newer than
 the Blenders' own floor, a small library of ours stands in for them (older_systems.cpp).
-OpenEXR has the same problem of names, and Blender writes its own files: _exr stays out of this wheel.
+OpenEXR has the same problem of names, and Blender writes its own files: _exr is not in this wheel.
 `pip install .` builds a wheel with it, for use without Blender.
 """
 
@@ -166,7 +166,7 @@ def required_versions(elf: ELFFile) -> Iterator[tuple[int, Version]]:
 
 
 def forget_versions(file: Path) -> None:
-    """Makes versions optional that no symbol asks for any more: the loader looks for all of them."""
+    """Makes versions optional that no symbol asks for any more: the loader looks for all."""
     with file.open("r+b") as stream:
         elf = ELFFile(stream)
         used = {symbol["ndx"] for symbol in elf.get_section_by_name(".gnu.version").iter_symbols()}
