@@ -34,30 +34,41 @@ class Blender:
             shutil.copy(path, self.folder)
         return self.inside(path.name)
 
+    def command(self, *arguments: str, environment: tuple[str, ...] = ()) -> list[str]:
+        return [
+            *self.sudo,
+            "chroot",
+            f"--userspec={os.getuid()}:{os.getgid()}",
+            str(self.chroot),
+            "/usr/bin/env",
+            "-i",
+            "PATH=/usr/bin:/bin",
+            "LC_ALL=C.UTF-8",
+            f"HOME={self.inside('home')}",
+            f"BLENDER_USER_RESOURCES={self.inside('user')}",
+            f"TMPDIR={self.inside('')}",
+            *environment,
+            "blender",
+            "-noaudio",
+            "--factory-startup",
+            "--python-exit-code",
+            "1",
+            *arguments,
+        ]
+
+    def start(self, *arguments: str, environment: tuple[str, ...] = (), stdout=None):
+        """`blender --factory-startup ARGUMENTS`, with windows: the running process."""
+        return subprocess.Popen(
+            self.command(*arguments, environment=environment),
+            stdin=subprocess.DEVNULL,
+            stdout=stdout,
+            stderr=subprocess.STDOUT,
+        )
+
     def run(self, *arguments: str, environment: tuple[str, ...] = (), timeout: int = 300):
         """`blender -b --factory-startup ARGUMENTS`; the output goes to pytest's report."""
         done = subprocess.run(
-            [
-                *self.sudo,
-                "chroot",
-                f"--userspec={os.getuid()}:{os.getgid()}",
-                str(self.chroot),
-                "/usr/bin/env",
-                "-i",
-                "PATH=/usr/bin:/bin",
-                "LC_ALL=C.UTF-8",
-                f"HOME={self.inside('home')}",
-                f"BLENDER_USER_RESOURCES={self.inside('user')}",
-                f"TMPDIR={self.inside('')}",
-                *environment,
-                "blender",
-                "-b",
-                "-noaudio",
-                "--factory-startup",
-                "--python-exit-code",
-                "1",
-                *arguments,
-            ],
+            self.command("-b", *arguments, environment=environment),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
