@@ -61,9 +61,10 @@ REMARKS = {
     "BSDF_HAIR": "on meshes named; where Cycles looks for lamps it leaves out a part of it",
     "BSDF_HAIR_PRINCIPLED": "Huang's model is named, and Chiang's is used; on meshes named",
     "BUMP": "a bump in the height of another bump is named",
-    "LIGHT_FALLOFF": "of lamps and worlds; on surfaces all but Quadratic without Smooth is named",
-    "LIGHT_PATH": "which kind of ray asks: camera, shadow, diffuse, glossy, reflection or "
-    "transmission; counts of bounces, Is Singular Ray, and Ray Length on surfaces are named",
+    "LIGHT_FALLOFF": "surfaces and what they emit make no light paths, then",
+    "LIGHT_PATH": "Is Singular Ray is named; what asks for counts, and surfaces that ask for Ray "
+    "Length, make no light paths; lights that are looked for leave the vertex that they light out "
+    "of Diffuse, Glossy and Transmission Depth in all techniques",
     "REPEAT_INPUT": "a number of iterations that is no constant is named",
     "TEX_COORD": "Window in the world of an orthographic camera is named",
 }

@@ -124,6 +124,15 @@ def input_cases() -> None:
                 "VertexColor", output=output, layer_name=name
             )
 
+    lengths = ("Ray Length", "Ray Depth", "Diffuse Depth", "Glossy Depth", "Transmission Depth")
+    for name in (*lengths, "Transparent Depth", "Is Camera Ray", "Is Shadow Ray"):
+        CASES[f"light path {name}"] = lambda t, name=name: t.out("LightPath", output=name)
+    for name in ("Quadratic", "Linear", "Constant"):
+        for smooth in (0.0, 40.0):
+            inputs = {"Strength": 0.1, "Smooth": smooth}
+            CASES[f"light falloff {name} {smooth}"] = lambda t, name=name, inputs=inputs: t.out(
+                "LightFalloff", inputs, name
+            )
     CASES["fresnel"] = lambda t: t.out("Fresnel", {"IOR": t.signed()[0]})
     for output in (0, 1):
         CASES[f"layer weight {output}"] = lambda t, output=output: t.out(

@@ -32,7 +32,7 @@ void Surfaces::add_aovs(uint32_t surface, Program aovs) {
 uint32_t Surfaces::bind(uint32_t surface, const Shape& shape,
                         const std::map<std::string, vec4>& own) {
   const Program& program = *surfaces_[surface].program;
-  const VertexKind kind = program.fibers || (shape.round() && program.transmits)
+  const VertexKind kind = program.by_path || program.fibers || (shape.round() && program.transmits)
                               ? VertexKind::OneWay
                               : VertexKind::Surface;
   uint32_t aovs = surfaces_[surface].aovs;
@@ -98,7 +98,8 @@ void Surfaces::set_objects(const ShapeList& shapes, const std::vector<Instance>&
   }
 }
 
-ShadingPoint Surfaces::point(const SurfaceInteraction& hit, vec3 view) const {
+ShadingPoint Surfaces::point(const SurfaceInteraction& hit, vec3 view,
+                             const PathSoFar& path) const {
   const Surface& surface = surfaces_[hit.material];
   const Shape& shape = *shapes_[hit.instance];
   ShadingPoint point{};
@@ -106,6 +107,7 @@ ShadingPoint Surfaces::point(const SurfaceInteraction& hit, vec3 view) const {
   point.ng = hit.ng;
   point.ns = hit.ns;
   point.view = view;
+  point.path = path;
   point.barycentric = hit.barycentric;
   point.triangle = shape.indices(hit.primitive);
   point.object = &objects_[hit.instance];

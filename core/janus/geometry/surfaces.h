@@ -48,49 +48,59 @@ class Surfaces {
   void set_objects(const ShapeList& shapes, const std::vector<Instance>& instances,
                    const CameraView& camera, const PixelFootprint& footprint);
 
-  // Shades a hit that is seen from the unit direction `view`.
-  void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result) const {
+  // Shades a hit that is seen from the unit direction `view`, at the end of `path`.
+  void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result,
+             const PathSoFar& path = {}) const {
     const Program& program = *surfaces_[hit.material].program;
     if (program.constant()) {
       program.place(hit.ns, result);
+      result.bsdf.set_kind(surfaces_[hit.material].kind);
     } else {
-      program.run(point(hit, view), result);
+      program.run(point(hit, view, path), result);
+      finish(program, hit, result);
     }
-    result.bsdf.set_kind(surfaces_[hit.material].kind);
   }
   // And keeps what another view needs.
-  void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result,
-             Reshading& reshading) const {
+  void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result, Reshading& reshading,
+             const PathSoFar& path = {}) const {
     const Program& program = *surfaces_[hit.material].program;
     if (program.dependence == Dependence::None) {
       reshading.program = nullptr;
-      shade(hit, view, result);
+      shade(hit, view, result, path);
     } else {
       reshading.program = &program;
-      reshading.point = point(hit, view);
+      reshading.point = point(hit, view, path);
       reshading.run(result);
-      result.bsdf.set_kind(surfaces_[hit.material].kind);
+      finish(program, hit, result);
     }
   }
-  ShadingPoint point(const SurfaceInteraction& hit, vec3 view) const;
+  ShadingPoint point(const SurfaceInteraction& hit, vec3 view, const PathSoFar& path = {}) const;
 
   // Calls write(aov, color, value) for what AOV Output nodes write there.
   template <class Write>
-  void write_aovs(SurfaceInteraction hit, vec3 view, Write&& write) const {
+  void write_aovs(SurfaceInteraction hit, vec3 view, const PathSoFar& path, Write&& write) const {
     hit.material = surfaces_[hit.material].aovs;
     if (hit.material != 0) {
-      program(hit.material).run_aovs(point(hit, view), write);
+      program(hit.material).run_aovs(point(hit, view, path), write);
     }
   }
 
  private:
+  // What the surface itself adds to what its program says.
+  void finish(const Program& program, const SurfaceInteraction& hit, ShadingResult& result) const {
+    result.bsdf.set_kind(surfaces_[hit.material].kind);
+    if (program.by_path) [[unlikely]] {
+      result.bsdf.set_by_path();
+    }
+  }
+
   struct Surface {
     const Program* program;
     const AttributeDesc* const* attributes;
     float material_index;
     uint32_t material;
-    // Light goes through the inside of what is round in an event of the surface, where the camera
-    // sees it: VertexKind::OneWay.
+    // VertexKind::OneWay where the program asks for the path, or where light goes through the
+    // inside of what is round in an event of the surface, where the camera sees it.
     VertexKind kind;
     uint32_t aovs = 0;  // the surface whose program writes AOVs; 0, the default surface: none
   };

@@ -55,8 +55,7 @@ class BidirectionalIntegrator : public PassIntegrator {
       return Rgb(0.0f);
     }
     ++rays;
-    const Rgb arrived =
-        value * context_.scene().transmittance(c.from, c.to, c.type, crossings, c.camera);
+    const Rgb arrived = value * c.transmittance(context_.scene(), crossings);
     return settings_.clamp(arrived, edges) * scale;
   }
 
@@ -143,8 +142,8 @@ class BidirectionalIntegrator : public PassIntegrator {
       __builtin_prefetch(block.states_of(l).data());
     }
     UnreadVertices unread;
-    const auto c = connect_vertices(l, light_bsdf, v, mis_, settings_.walk, scale, roulette,
-                                    sampler, counters, reads(unread));
+    const auto c = connect_vertices(context_.scene(), l, light_bsdf, v, mis_, settings_.walk, scale,
+                                    roulette, sampler, counters, reads(unread));
     if (!c) {
       return Rgb(0.0f);
     }

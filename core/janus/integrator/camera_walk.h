@@ -28,10 +28,44 @@ struct CameraWalk {
   bool clear = true;
   // Where it looks for lights with the rules of shadow rays: what lets them through so far.
   const ShadowsAhead* shadows = nullptr;
+  bool looks = false;            // PathSoFar::looks
   CameraTrace* trace = nullptr;  // without light path expressions: none
   std::span<Rgb> layers{};       // of the pixel
   bool caught = false;           // the camera has seen a shadow catcher
+
+  bool beyond(const BounceCaps& caps) const {
+    for (int i = 0; i < 3; ++i) {
+      if (bounces[i] > caps[i]) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // As it comes to what is on its ray.
+  PathSoFar path(float length = 0.0f) const {
+    PathSoFar path;
+    path.ray_length = length;
+    path.depth = static_cast<uint16_t>(edges - 1);
+    path.crossings = static_cast<uint16_t>(crossings);
+    for (int i = 0; i < 3; ++i) {
+      path.bounces.of[i] = static_cast<uint16_t>(bounces[i]);
+    }
+    if (looks) {
+      --path.bounces.of[static_cast<int>(type)];
+      path.looks = true;
+      path.last = type;
+    }
+    return path;
+  }
 };
+
+// What a light may add of what diffuse lobes scatter, and of the rest.
+inline Rgb seen(const Light& light, Rgb diffuse, Rgb rest, bool transmitted) {
+  const RayType other = transmitted ? RayType::Transmission : RayType::Glossy;
+  return (contains(light.visibility, RayType::Diffuse) ? diffuse : Rgb(0.0f)) +
+         (contains(light.visibility, other) ? rest : Rgb(0.0f));
+}
 
 // By channel.
 inline Rgb share(Rgb part, Rgb whole) {
@@ -43,12 +77,11 @@ inline Rgb share(Rgb part, Rgb whole) {
 }
 
 // Lobes that reflect into one direction share it.
-inline RayType label(const BsdfSample& sample, Sampler& sampler) {
-  if (sample.transmitted) {
+inline RayType label(Rgb value, Rgb diffuse_part, bool transmitted, Sampler& sampler) {
+  if (transmitted) {
     return RayType::Transmission;
   }
-  const float diffuse =
-      is_black(sample.diffuse) ? 0.0f : average(sample.diffuse) / average(sample.weight);
+  const float diffuse = is_black(diffuse_part) ? 0.0f : average(diffuse_part) / average(value);
   return diffuse > 0.0f && sampler.next_1d() < diffuse ? RayType::Diffuse : RayType::Glossy;
 }
 

@@ -86,6 +86,7 @@ class DataPasses final : public PassIntegrator {
 
   // Follows the camera's ray through what is transparent.
   void look_straight(Ray ray, Sampler& sampler, DataSample& sample, Counters& counters) const {
+    const vec3 origin = ray.origin;
     Rgb through(1.0f);
     AovShare aov_share;
     bool done = false;  // have the passes that are means got their surface?
@@ -100,11 +101,12 @@ class DataPasses final : public PassIntegrator {
         return;
       }
       const vec3 wo = -ray.direction;
-      const ShadingResult shading = context_.scene().shade(*hit, wo);
+      const PathSoFar path = PathSoFar().after(crossings, glm::length(hit->p - origin));
+      const ShadingResult shading = context_.scene().shade(*hit, wo, path);
       if (!done && !choice_.aovs.empty()) {
         const bool emits = context_.scene().surfaces.program(hit->material).emits();
         const float share = aov_share.arrive(crossings, emits);
-        context_.scene().surfaces.write_aovs(*hit, wo, aovs_.writer(share, sample));
+        context_.scene().surfaces.write_aovs(*hit, wo, path, aovs_.writer(share, sample));
       }
       if (context_.scene().instances[hit->instance].holdout || shading.holdout >= 1.0f) {
         if (!done) {
@@ -221,15 +223,18 @@ class DataPasses final : public PassIntegrator {
   void look_for_features(Ray ray, Sampler& sampler, DataSample& sample, Counters& counters) const {
     Rgb share(1.0f);
     RayType type = RayType::Camera;
+    PathSoFar path;
+    vec3 origin = ray.origin;
     for (int steps = 1; steps < settings_.walk.max_edges + settings_.walk.max_crossings; ++steps) {
       ++counters.camera_rays;
       const auto hit = context_.scene().intersect(ray, type);
       if (!hit) {
-        add(sample, DataPass::DenoisingAlbedo, share * background(ray, type));
+        add(sample, DataPass::DenoisingAlbedo, share * background(ray, type, path));
         return;
       }
       const vec3 wo = -ray.direction;
-      const ShadingResult shading = context_.scene().shade(*hit, wo);
+      path.ray_length = glm::length(hit->p - origin);
+      const ShadingResult shading = context_.scene().shade(*hit, wo, path);
       const BsdfView bsdf = shading.bsdf.view(hit->ng, shading.ns);
       const float length = glm::length(hit->p - ray.origin);
       add(sample, DataPass::DenoisingDepth, vec3(average(share) * length));
@@ -247,6 +252,7 @@ class DataPasses final : public PassIntegrator {
       const float pass = through > 0.0f ? through / (through + shading.bsdf.albedo()) : 0.0f;
       if (sampler.next_1d() < pass) {
         ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, ray.direction), ray.direction};
+        ++path.crossings;
         continue;
       }
       const float u_lobe = sampler.next_1d();
@@ -256,16 +262,19 @@ class DataPasses final : public PassIntegrator {
       }
       type = next->transmitted ? RayType::Transmission : RayType::Glossy;
       ray = Ray{offset_origin(hit->p, hit->ng, hit->offset, next->direction), next->direction};
+      origin = ray.origin;
+      ++path.depth;
+      path.bounces = path.bounces.with(type);
     }
   }
 
   // What shines from infinitely far away.
-  Rgb background(const Ray& ray, RayType type) const {
+  Rgb background(const Ray& ray, RayType type, const PathSoFar& path) const {
     Rgb sum(0.0f);
     context_.scene().lamp_index.for_each_on_ray(ray, [&](size_t lamp) {
       const Light& light = *context_.scene().lights[lamp];
       if (light.background && contains(light.visibility, type)) {
-        const auto hit = light.intersect(Ray{ray.origin, ray.direction, kInfinity});
+        const auto hit = light.look_along(Ray{ray.origin, ray.direction, kInfinity}, path);
         sum += hit ? hit->radiance : Rgb(0.0f);
       }
     });

@@ -105,7 +105,7 @@ class LightTracer final : public PassIntegrator {
     }
     ++counters.splat_rays;
     const Connection& c = s->connection;
-    Rgb value = c.value * context_.scene().transmittance(c.from, c.to, c.type, crossings, c.camera);
+    Rgb value = c.value * c.transmittance(context_.scene(), crossings);
     if (!is_black(value)) {
       const bool caught = settings_.walk.catchers && catch_segment(context_.scene(), c.from, c.to,
                                                                    v.caught, settings_.walk, value);

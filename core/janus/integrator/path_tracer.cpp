@@ -115,18 +115,12 @@ class PathTracer final : public PassIntegrator {
     seen.matte -= walk.caught ? 0.0f : share;
   }
 
-  // What a light may add of what diffuse lobes scatter, and of the rest.
-  static Rgb seen(const Light& light, Rgb diffuse, Rgb rest, bool transmitted) {
-    const RayType other = transmitted ? RayType::Transmission : RayType::Glossy;
-    return (contains(light.visibility, RayType::Diffuse) ? diffuse : Rgb(0.0f)) +
-           (contains(light.visibility, other) ? rest : Rgb(0.0f));
-  }
-
   // A light is looked for with the rules of shadow rays, unless only this walk can find it. Where
   // the walk sees other things than they do, it takes a ray of its own for that.
   bool looks_apart(const Walk& walk) const {
-    return settings_.walk.ray_types && walk.edges > 1 && !walk.delta &&
-           (context_.scene().has_own_shadows ||
+    const bool asked = settings_.walk.by_path;
+    return (asked || settings_.walk.ray_types) && walk.edges > 1 && !walk.delta &&
+           (asked || context_.scene().has_own_shadows ||
             !context_.scene().accel->alike(walk.type, RayType::Shadow));
   }
 
@@ -136,6 +130,8 @@ class PathTracer final : public PassIntegrator {
     Rgb sum(0.0f);
     ShadowsAhead shadows(scene.shadow_types, walk.crossings, settings_.walk.max_crossings);
     walk.shadows = &shadows;
+    walk.looks = settings_.walk.by_path;
+    const int crossed = walk.crossings;
     for (;;) {
       ++counters.camera_rays;
       SurfaceInteraction hit;
@@ -144,10 +140,12 @@ class PathTracer final : public PassIntegrator {
       }
       const float t_end = glm::length(hit.p - walk.ray.origin);
       sum += lamps(walk, t_end);
+      walk.crossings = crossed + shadows.crossings();
+      const PathSoFar here = walk.path(t_end);
       const Instance& met = scene.instances[hit.instance];
       for (uint32_t copy = met.first_copy; copy < met.first_copy + met.copies; ++copy) {
         scene.turn_to_copy(hit, copy);
-        const ShadingResult shading = scene.shade(hit, -d);
+        const ShadingResult shading = scene.shade(hit, -d, here);
         if (size_t index; const MeshLight* light = scene.mesh_light(hit, index)) {
           const LightHit shine = light->at(hit, walk.previous.p, d, shading.emission);
           sum += shine.by_chance() ? Rgb(0.0f) : found(walk, index, shine);
@@ -169,7 +167,8 @@ class PathTracer final : public PassIntegrator {
     context_.scene().lamp_index.for_each_on_ray(up_to, [&](size_t lamp) {
       const Light& light = *context_.scene().lights[lamp];
       const float t_max = t_end.value_or(light.infinite() ? kInfinity : walk.ray.t_max);
-      const auto hit = light.intersect(Ray{walk.ray.origin, walk.ray.direction, t_max});
+      const auto hit =
+          light.look_along(Ray{walk.ray.origin, walk.ray.direction, t_max}, walk.path());
       if (hit && hit->t > walk.t_begin) {
         sum += found(walk, lamp, *hit);
       }
@@ -212,7 +211,7 @@ class PathTracer final : public PassIntegrator {
       if (!apart) {
         sum += lamps(walk, t_end);
       }
-      ShadingResult shading = scene.shade(*hit, wo);
+      ShadingResult shading = scene.shade(*hit, wo, walk.path(t_end));
       if (settings_.walk.catchers && walk.edges == 1 && !walk.caught) {
         walk.caught = catch_view(scene, *hit, walk.ray, settings_.walk, walk.beta, coverage);
         if (is_black(walk.beta)) {
@@ -246,7 +245,7 @@ class PathTracer final : public PassIntegrator {
         walk.beta /= 1.0f - pass;
       }
 
-      if (walk.edges + 1 > settings_.walk.max_edges || beyond_caps(walk.bounces)) {
+      if (walk.edges + 1 > settings_.walk.max_edges || walk.beyond(settings_.walk.caps)) {
         return sum;
       }
       BsdfView bsdf = shading.bsdf.view(hit->ng, shading.ns);
@@ -273,7 +272,7 @@ class PathTracer final : public PassIntegrator {
       std::array<int, 3> bounces = walk.bounces;
       RayType type = RayType::Diffuse;
       if (settings_.walk.labels()) {
-        type = label(*sample, sampler);
+        type = label(sample->weight, sample->diffuse, sample->transmitted, sampler);
         ++bounces[static_cast<int>(type)];
       }
       const Rgb diffuse =
@@ -341,15 +340,6 @@ class PathTracer final : public PassIntegrator {
     return true;
   }
 
-  bool beyond_caps(const std::array<int, 3>& bounces) const {
-    for (int i = 0; i < 3; ++i) {
-      if (bounces[i] > settings_.walk.caps[i]) {
-        return true;
-      }
-    }
-    return false;
-  }
-
   Rgb direct(const SurfaceInteraction& hit, const BsdfView& bsdf, vec3 wo, const Walk& walk,
              Sampler& sampler, Counters& counters) const {
     const Scene& scene = context_.scene();
@@ -358,7 +348,7 @@ class PathTracer final : public PassIntegrator {
     const Receiver receiver = scene.receiver(hit, bsdf.transmits(), wo);
     const LightChoice choice = scene.light_sampler.sample_illumination(receiver, u_light);
     const Light& light = *scene.lights[choice.light];
-    const auto sample = light.sample_illumination(hit.p, choice.primitive, u);
+    auto sample = light.sample_illumination(hit.p, choice.primitive, u);
     if (!sample || walk.edges + 1 > light.max_edges || !receiver.lit_by(light)) {
       return Rgb(0.0f);
     }
@@ -368,16 +358,31 @@ class PathTracer final : public PassIntegrator {
     }
     ++counters.nee_samples;
     ++counters.nee_rays;
-    const Rgb visible =
-        scene.transmittance(offset_origin(hit.p, hit.ng, hit.offset, sample->wi), sample->target,
-                            light.shadow_ray, settings_.walk.max_crossings - walk.crossings);
+    const vec3 origin = offset_origin(hit.p, hit.ng, hit.offset, sample->wi);
+    const int crossings = settings_.walk.max_crossings - walk.crossings;
+    const bool transmitted = dot(wo, hit.ng) * dot(sample->wi, hit.ng) < 0.0f;
+    Rgb visible;
+    if (settings_.walk.by_path) {
+      PathSoFar path = walk.path();
+      ++path.depth;
+      path.looks = true;
+      path.last = label(e.f, e.diffuse, transmitted, sampler);
+      const Scene::Passed passed =
+          scene.pass(origin, sample->target, light.shadow_ray, crossings, path);
+      visible = passed.through;
+      if (light.by_path) {
+        light.shine_on(path.after(passed.crossings, std::sqrt(sample->distance2)), choice.primitive,
+                       *sample);
+      }
+    } else {
+      visible = scene.transmittance(origin, sample->target, light.shadow_ray, crossings);
+    }
     if (is_black(visible)) {
       return visible;
     }
     const float pdf_nee = choice.pmf * sample->pdf_solid;
     const float pdf_hit = light.hittable() ? e.pdf_radiance : 0.0f;
     Rgb f = e.f;
-    const bool transmitted = dot(wo, hit.ng) * dot(sample->wi, hit.ng) < 0.0f;
     if (settings_.walk.ray_types) {
       f = seen(light, e.diffuse, e.f - e.diffuse, transmitted);
     }

@@ -59,9 +59,15 @@ class VaryingEnvironment final : public InfiniteLight {
  public:
   VaryingEnvironment(Sky sky, const SceneBox& scene) : InfiniteLight(scene), sky_(std::move(sky)) {
     name = "World";
+    if constexpr (kProgram) {
+      by_path = sky_.by_path();
+    }
   }
 
   float power() const override {
+    if (by_path) {
+      return 0.0f;
+    }
     if constexpr (kSun) {
       return sky_.total() * scene_.area(sky_.cone().direction);
     } else {
@@ -98,7 +104,7 @@ class VaryingEnvironment final : public InfiniteLight {
                                                         vec2 u) const override {
     const vec3 wi = sky_.sample(u);
     const float pdf = sky_.pdf_solid(wi);
-    const Rgb radiance = sky_.radiance(wi);
+    const Rgb radiance = known_radiance(wi);
     if (!(pdf > 0.0f) || is_black(radiance)) {
       return std::nullopt;
     }
@@ -114,7 +120,7 @@ class VaryingEnvironment final : public InfiniteLight {
     if (ray.t_max < kInfinity) {
       return std::nullopt;
     }
-    const Rgb radiance = sky_.radiance(ray.direction);
+    const Rgb radiance = known_radiance(ray.direction);
     if (is_black(radiance)) {
       return std::nullopt;
     }
@@ -122,8 +128,24 @@ class VaryingEnvironment final : public InfiniteLight {
     return LightHit{kInfinity, radiance, pdf, density(ray.direction, pdf), kInfinity};
   }
 
+  void shine_on(const PathSoFar& path, uint32_t /*primitive*/,
+                IlluminationSample& sample) const override {
+    if constexpr (kProgram) {
+      sample.radiance = sky_.radiance(sample.wi, path);
+    }
+  }
+  void shine_on(const PathSoFar& path, const Ray& ray, LightHit& hit) const override {
+    if constexpr (kProgram) {
+      hit.radiance = sky_.radiance(ray.direction, path);
+    }
+  }
+
  private:
+  // Something above 0 where the path has to be known.
+  Rgb known_radiance(vec3 to_light) const { return by_path ? Rgb(1.0f) : sky_.radiance(to_light); }
+
   static constexpr bool kSun = std::is_same_v<Sky, SkySun>;
+  static constexpr bool kProgram = kSun || std::is_same_v<Sky, ProgramSky>;
   Sky sky_;
 };
 

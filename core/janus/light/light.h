@@ -18,6 +18,7 @@
 #include "janus/geometry/interaction.h"
 #include "janus/math/vec.h"
 #include "janus/scene/description.h"
+#include "janus/shading/path_so_far.h"
 
 namespace janus {
 
@@ -55,6 +56,7 @@ struct IlluminationSample {
   Rgb radiance;     // for a point: intensity / distance^2
   float pdf_solid;  // per solid angle at the receiver; 1 stands for the delta of a point
   RayDensity emission;
+  vec2 barycentric = vec2(0.0f);  // mesh lights: on their triangle
 };
 
 // A light found along a ray from `origin`.
@@ -101,6 +103,8 @@ class Light {
   int max_edges = 1 << 20;
   bool background = false;  // the world: a transparent film leaves it out
   bool holdout = false;     // part of an object that holds out
+  // Its radiance depends on the path to it. What does emits no light paths, which would not know.
+  bool by_path = false;
 
   void set_links(const EmitterLinks& links) {
     link_set = links.receivers;
@@ -156,6 +160,28 @@ class Light {
   virtual Rgb tint(vec3 endpoint, vec3 direction, float distance) const {
     (void)endpoint, (void)direction, (void)distance;
     return Rgb(1.0f);
+  }
+
+  // Where `by_path`: completes a sample or a hit of `ray`, which know no path. (Walks that meet a
+  // mesh light have asked its surface.)
+  virtual void shine_on(const PathSoFar& path, uint32_t primitive,
+                        IlluminationSample& sample) const {
+    (void)path, (void)primitive, (void)sample;
+  }
+  virtual void shine_on(const PathSoFar& path, const Ray& ray, LightHit& hit) const {
+    (void)path, (void)ray, (void)hit;
+  }
+  // The light of a lamp along the ray, before ray.t_max, as the path sees it.
+  std::optional<LightHit> look_along(const Ray& ray, PathSoFar path) const {
+    auto hit = intersect(ray);
+    if (hit && by_path) [[unlikely]] {
+      path.ray_length = hit->t;
+      shine_on(path, ray, *hit);
+      if (is_black(hit->radiance)) {
+        hit.reset();
+      }
+    }
+    return hit;
   }
 
   // Projectors: the number of the pixel from which light goes to z_1 (light/projector.h).

@@ -45,14 +45,16 @@ void MeshLight::add_triangles(const Mesh& mesh, const Instance& instance,
       continue;
     }
     const SurfaceInteraction surface = accel_.surface_point(instance_, i, vec2(1.0f / 3.0f));
+    const bool asks = program.varying_emission && program.by_path;
+    by_path = by_path || asks;
     slot_[i] = static_cast<uint32_t>(triangles_.size());
     triangles_.push_back(
-        {radiance, program.varying_emission, surface.ng, surface.offset, 1.0f / area, {}, i});
-    weights.push_back(weight);
-    power_ += 2.0f * kPi * weight;
+        {radiance, program.varying_emission, asks, surface.ng, surface.offset, 1.0f / area, {}, i});
+    weights.push_back(asks ? 0.0f : weight);
+    power_ += 2.0f * kPi * weights.back();
   }
   by_power_ = DiscreteDistribution(weights);
-  for (size_t i = 0; i < triangles_.size(); ++i) {
+  for (size_t i = 0; i < triangles_.size() && !by_power_.empty(); ++i) {
     // Either side, by the cosine.
     triangles_[i].density = {0.5f * kInvPi * by_power_.pmf(i) * triangles_[i].pdf_area, false};
   }
@@ -74,7 +76,8 @@ Rgb MeshLight::mean_radiance(uint32_t primitive) const {
                    glm::fract(0.618034f * static_cast<float>(k)));
       for (const float side : {1.0f, -1.0f}) {
         const Frame frame(side * hit.ng);
-        surfaces_.shade(hit, frame.to_world(square_to_cosine_hemisphere(u)), shading);
+        surfaces_.shade(hit, frame.to_world(square_to_cosine_hemisphere(u)), shading,
+                        usual_path(k % kUsualPaths, 1.0f));
         sum += shading.emission;
       }
     }
@@ -82,10 +85,20 @@ Rgb MeshLight::mean_radiance(uint32_t primitive) const {
   return sum / (2.0f * kSide * kSide);
 }
 
-Rgb MeshLight::varying_radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const {
+Rgb MeshLight::varying_radiance(const Triangle& triangle, vec2 barycentric, vec3 view,
+                                const PathSoFar& path) const {
   ShadingResult shading;
-  surfaces_.shade(accel_.surface_point(instance_, triangle.primitive, barycentric), view, shading);
+  surfaces_.shade(accel_.surface_point(instance_, triangle.primitive, barycentric), view, shading,
+                  path);
   return shading.emission;
+}
+
+void MeshLight::shine_on(const PathSoFar& path, uint32_t primitive,
+                         IlluminationSample& sample) const {
+  const Triangle& triangle = this->triangle(primitive);
+  if (triangle.by_path) {
+    sample.radiance = varying_radiance(triangle, sample.barycentric, -sample.wi, path);
+  }
 }
 
 std::vector<Emitter> MeshLight::emitters() const {
@@ -105,7 +118,7 @@ std::vector<Emitter> MeshLight::emitters() const {
 
 std::optional<EmissionSample> MeshLight::sample_emission(vec2 u_position, vec2 u_direction) const {
   std::optional<EmissionSample> sample;
-  if (triangles_.empty()) {
+  if (by_power_.empty()) {
     return sample;
   }
   const bool front = u_direction.x < 0.5f;
@@ -148,7 +161,8 @@ std::optional<IlluminationSample> MeshLight::sample_illumination(vec3 receiver, 
   sample->wi = wi;
   sample->target = target;
   sample->distance2 = d2;
-  sample->radiance = radiance(triangle, b, -wi);
+  sample->radiance = triangle.by_path ? Rgb(0.0f) : radiance(triangle, b, -wi);
+  sample->barycentric = b;
   sample->pdf_solid = triangle.pdf_area * d2 / cos_light;
   sample->emission = triangle.density;
   return sample;

@@ -25,6 +25,9 @@ class MeshLight final : public Light {
                                                         vec2 u) const override;
   std::vector<Emitter> emitters() const override;
   float pdf_illumination(const EmissionSample& sample, vec3 endpoint, vec3 receiver) const override;
+  using Light::shine_on;
+  void shine_on(const PathSoFar& path, uint32_t primitive,
+                IlluminationSample& sample) const override;
 
   // Mesh lights are surfaces: the walk finds them, and asks at() then.
   std::optional<LightHit> intersect(const Ray& /*ray*/) const override { return std::nullopt; }
@@ -35,6 +38,7 @@ class MeshLight final : public Light {
   struct Triangle {
     Rgb radiance;  // everywhere, or the mean of what was looked at
     bool varying;  // over the triangle, or with the direction
+    bool by_path;  // with the path to it
     vec3 ng;
     float offset;    // as in SurfaceInteraction
     float pdf_area;  // 1 / area
@@ -52,9 +56,10 @@ class MeshLight final : public Light {
   }
   // At a point, into the unit direction `view`.
   Rgb radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const {
-    return triangle.varying ? varying_radiance(triangle, barycentric, view) : triangle.radiance;
+    return triangle.varying ? varying_radiance(triangle, barycentric, view, {}) : triangle.radiance;
   }
-  Rgb varying_radiance(const Triangle& triangle, vec2 barycentric, vec3 view) const;
+  Rgb varying_radiance(const Triangle& triangle, vec2 barycentric, vec3 view,
+                       const PathSoFar& path) const;
 
   const Accel& accel_;
   const Surfaces& surfaces_;
@@ -62,7 +67,7 @@ class MeshLight final : public Light {
   std::vector<Triangle> triangles_;
   std::vector<uint32_t> slot_;  // by primitive: its place in triangles_, or kDark
   DiscreteDistribution by_power_;
-  float power_ = 0.0f;
+  float power_ = 0.0f;  // of what light paths start on
 };
 
 }  // namespace janus

@@ -24,6 +24,7 @@ class ProgramLight final : public Light {
       : lamp_(std::move(lamp)), desc_(desc), program_(std::move(program)) {
     name = lamp_->name;
     set_rules(desc);
+    by_path = program_.by_path;
     object_.to_world = desc.transform;
     object_.to_object = glm::inverse(desc.transform);
     object_.normal_to_world = glm::transpose(mat3(object_.to_object));
@@ -44,7 +45,7 @@ class ProgramLight final : public Light {
     brightness_ = measure(std::max(glm::length(center_ - vec3(camera.to_world[3])), 1e-3f));
   }
 
-  float power() const override { return brightness_ * lamp_->power(); }
+  float power() const override { return by_path ? 0.0f : brightness_ * lamp_->power(); }
   bool hittable() const override { return lamp_->hittable(); }
   bool infinite() const override { return lamp_->infinite(); }
 
@@ -67,7 +68,7 @@ class ProgramLight final : public Light {
   std::optional<IlluminationSample> sample_illumination(vec3 receiver, uint32_t primitive,
                                                         vec2 u) const override {
     auto sample = lamp_->sample_illumination(receiver, primitive, u);
-    if (sample) {
+    if (sample && !by_path) {
       sample->radiance *= tint(sample->target, -sample->wi, std::sqrt(sample->distance2));
       if (is_black(sample->radiance)) {
         sample.reset();
@@ -83,7 +84,7 @@ class ProgramLight final : public Light {
 
   std::optional<LightHit> intersect(const Ray& ray) const override {
     auto hit = lamp_->intersect(ray);
-    if (hit) {
+    if (hit && !by_path) {
       hit->radiance *= tint(ray.origin + hit->t * ray.direction, -ray.direction, hit->t);
       if (is_black(hit->radiance)) {
         hit.reset();
@@ -92,9 +93,23 @@ class ProgramLight final : public Light {
     return hit;
   }
 
+  void shine_on(const PathSoFar& path, uint32_t /*primitive*/,
+                IlluminationSample& sample) const override {
+    sample.radiance *= tint_by_path(sample.target, -sample.wi, path);
+  }
+  void shine_on(const PathSoFar& path, const Ray& ray, LightHit& hit) const override {
+    hit.radiance *= tint_by_path(ray.origin + hit.t * ray.direction, -ray.direction, path);
+  }
+
+  Rgb tint(vec3 endpoint, vec3 direction, float distance) const override {
+    return tint_by_path(endpoint, direction,
+                        PathSoFar().after(0, infinite() ? kInfinity : distance));
+  }
+
+ private:
   // Cycles' coordinates of lamps (intern/cycles/kernel/light): their normal is that of the surface,
   // or looks along the ray where the lamp has none of its own.
-  Rgb tint(vec3 endpoint, vec3 direction, float distance) const override {
+  Rgb tint_by_path(vec3 endpoint, vec3 direction, const PathSoFar& path) const {
     ShadingPoint point{};
     // A sun is where its rays point to, as seen from the origin.
     point.p = infinite() ? direction : endpoint;
@@ -112,22 +127,23 @@ class ProgramLight final : public Light {
     point.barycentric = vec2(uv.y, 1.0f - uv.x - uv.y);
     point.object = &object_;
     point.footprint = 1e-2f;
-    point.ray_length = infinite() ? kInfinity : distance;
+    point.path = path;
     ShadingResult result;
     program_.run(point, result);
     return is_finite(result.emission) ? glm::max(result.emission, Rgb(0.0f)) : Rgb(0.0f);
   }
 
- private:
   // Over the rays of the lamp, as many as carry the same power.
   float measure(float usual_distance) const {
+    const float usual = infinite() ? kInfinity : usual_distance;
     double sum = 0.0, whole = 0.0;
     for (int i = 0; i < kProbes; ++i) {
       Sampler sampler(0, Stream::Pilot, 0, static_cast<uint64_t>(i));
       const vec2 u = sampler.next_2d();
       if (const auto s = lamp_->sample_emission(u, sampler.next_2d())) {
         whole += luminance(s->weight);
-        sum += luminance(s->weight * tint(s->origin, s->direction, usual_distance));
+        sum += luminance(s->weight *
+                         tint_by_path(s->origin, s->direction, usual_path(i % kUsualPaths, usual)));
       }
     }
     const double mean = whole > 0.0 ? sum / whole : 0.0;

@@ -37,12 +37,13 @@ ObjectData no_object(const CameraView& camera) {
   return object;
 }
 
-ShadingPoint sky_point(vec3 direction, const ObjectData& surroundings) {
+ShadingPoint sky_point(vec3 direction, const ObjectData& surroundings, const PathSoFar& path) {
   ShadingPoint point{};
   point.p = direction;
   point.ng = point.ns = point.view = point.object_normal = -direction;
   point.object = &surroundings;
   point.footprint = 1e-2f;
+  point.path = path;
   return point;
 }
 
@@ -61,10 +62,19 @@ WorldProgram::WorldProgram(Program program, const CameraView& camera)
   }
 }
 
-Rgb WorldProgram::radiance(vec3 direction) const {
+Rgb WorldProgram::radiance(vec3 direction, const PathSoFar& path) const {
   ShadingResult result;
-  program_.run(sky_point(direction, surroundings_), result);
+  program_.run(sky_point(direction, surroundings_, path), result);
   return is_finite(result.emission) ? result.emission : Rgb(0.0f);
+}
+
+float WorldProgram::mean_luminance(vec3 direction) const {
+  const int count = by_path() ? kUsualPaths : 1;
+  float sum = 0.0f;
+  for (int i = 0; i < count; ++i) {
+    sum += luminance(radiance(direction, usual_path(i, kInfinity)));
+  }
+  return sum / static_cast<float>(count);
 }
 
 int WorldProgram::widest_picture() const {
@@ -90,7 +100,7 @@ float WorldProgram::luminance_around(const SunDisc& sun, float share) const {
   float sum = 0.0f;
   for (int i = 0; i < kPoints; ++i) {
     const vec2 around = cos_sin(2.0f * kPi * static_cast<float>(i) / kPoints);
-    sum += luminance(radiance(frame.to_world(vec3(c.y * around, c.x))));
+    sum += mean_luminance(frame.to_world(vec3(c.y * around, c.x)));
   }
   return sum / kPoints;
 }
@@ -103,12 +113,15 @@ SkySun::SkySun(std::shared_ptr<const WorldProgram> world, size_t number)
   constexpr int kSide = 16;
   for (int i = 0; i < kSide * kSide; ++i) {
     const vec2 u = (vec2(i % kSide, i / kSide) + 0.5f) / static_cast<float>(kSide);
-    total_ += luminance(radiance(sample(u))) / (pdf_ * kSide * kSide);
+    const vec3 direction = sample(u);
+    total_ += world_->sun_at(direction) == number_
+                  ? world_->mean_luminance(direction) / (pdf_ * kSide * kSide)
+                  : 0.0f;
   }
 }
 
-Rgb SkySun::radiance(vec3 direction) const {
-  return world_->sun_at(direction) == number_ ? world_->radiance(direction) : Rgb(0.0f);
+Rgb SkySun::radiance(vec3 direction, const PathSoFar& path) const {
+  return world_->sun_at(direction) == number_ ? world_->radiance(direction, path) : Rgb(0.0f);
 }
 
 vec3 SkySun::sample(vec2 u) const {
@@ -119,8 +132,8 @@ ProgramSky::ProgramSky(std::shared_ptr<const WorldProgram> world, bool sampled,
                        const CancelToken& cancel)
     : world_(std::move(world)), map_(measure(sampled, cancel)) {}
 
-Rgb ProgramSky::radiance(vec3 direction) const {
-  return world_->sun_at(direction) == world_->suns().size() ? world_->radiance(direction)
+Rgb ProgramSky::radiance(vec3 direction, const PathSoFar& path) const {
+  return world_->sun_at(direction) == world_->suns().size() ? world_->radiance(direction, path)
                                                             : Rgb(0.0f);
 }
 
@@ -137,7 +150,8 @@ EnvironmentMap ProgramSky::measure(bool sampled, const CancelToken& cancel) cons
     for (int i = 0; i < columns * steps; ++i) {
       const vec3 direction =
           latlong_to_direction(static_cast<double>(i) / (columns * steps), latlong_z(v));
-      const float found = std::min(luminance(radiance(direction)), kMost);
+      const bool sky = world_->sun_at(direction) == world_->suns().size();
+      const float found = sky ? std::min(world_->mean_luminance(direction), kMost) : 0.0f;
       sums[i / steps] += found;
       if (i % steps == 0) {
         sums[(i / steps + columns - 1) % columns] += found;

@@ -13,14 +13,17 @@ namespace janus {
 // What the program of a world knows of objects: there is none.
 ObjectData no_object(const CameraView& camera);
 // The point where Cycles runs it: `direction`, of a sphere that looks inwards.
-ShadingPoint sky_point(vec3 direction, const ObjectData& surroundings);
+ShadingPoint sky_point(vec3 direction, const ObjectData& surroundings, const PathSoFar& path = {});
 
 class WorldProgram {
  public:
   WorldProgram(Program program, const CameraView& camera);
 
-  // Runs the program.
-  Rgb radiance(vec3 direction) const;
+  // Runs the program, for one path or where it does not depend on that.
+  Rgb radiance(vec3 direction, const PathSoFar& path = {}) const;
+  bool by_path() const { return program_.by_path; }
+  // A mean over usual paths.
+  float mean_luminance(vec3 direction) const;
 
   // Columns of the widest picture that it reads; 0: none.
   int widest_picture() const;
@@ -46,7 +49,8 @@ class ProgramSky {
   // a while; else it shines to the camera alone. Throws Cancelled.
   ProgramSky(std::shared_ptr<const WorldProgram> world, bool sampled, const CancelToken& cancel);
 
-  Rgb radiance(vec3 direction) const;
+  Rgb radiance(vec3 direction, const PathSoFar& path = {}) const;
+  bool by_path() const { return world_->by_path(); }
 
   // A direction, drawn with pdf_solid(). That is constant in each cell of a grid, near the cell's
   // mean luminance, and positive everywhere: what the program hides from the grid is found, too.
@@ -70,7 +74,8 @@ class SkySun {
   // `number`: in WorldProgram::suns().
   SkySun(std::shared_ptr<const WorldProgram> world, size_t number);
 
-  Rgb radiance(vec3 direction) const;
+  Rgb radiance(vec3 direction, const PathSoFar& path = {}) const;
+  bool by_path() const { return world_->by_path(); }
   vec3 sample(vec2 u) const;  // uniform in its cone
   float pdf_solid(vec3 /*direction*/) const { return pdf_; }
   float total() const { return total_; }

@@ -5,6 +5,8 @@ namespace janus {
 
 namespace {
 
+constexpr PathSoFar kFromCamera{};
+
 Rgb background_behind(const Scene& scene, const Ray& ray) {
   Rgb sum(0.0f);
   for (const size_t lamp : scene.lamps) {
@@ -12,7 +14,7 @@ Rgb background_behind(const Scene& scene, const Ray& ray) {
     if (!light.background || !contains(light.visibility, RayType::Camera)) {
       continue;
     }
-    if (const auto hit = light.intersect(Ray{ray.origin, ray.direction, kInfinity})) {
+    if (const auto hit = light.look_along(Ray{ray.origin, ray.direction, kInfinity}, {})) {
       sum += hit->radiance;
     }
   }
@@ -29,7 +31,7 @@ bool catch_view(const Scene& scene, const SurfaceInteraction& hit, const Ray& ra
   if (scene.whole) {
     const vec3 before = offset_origin(hit.p, hit.ng, hit.offset, -ray.direction);
     beta *= scene.whole->transmittance(before, ray.origin, RayType::Camera, rules.max_crossings,
-                                       Scene::End::B);
+                                       Scene::End::B, &kFromCamera);
     return true;
   }
   coverage.caught = average(beta);
@@ -51,7 +53,7 @@ bool catch_segment(const Scene& scene, vec3 from, vec3 to, bool caught, const Pa
   }
   if (scene.whole) {
     value *= scene.whole->transmittance(passed.value_or(from), to, RayType::Camera,
-                                        rules.max_crossings, Scene::End::B);
+                                        rules.max_crossings, Scene::End::B, &kFromCamera);
   }
   return true;
 }

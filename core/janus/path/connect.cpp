@@ -32,6 +32,20 @@ LightVertex::LightVertex(const PathVertex& v)
       labels(v.possible_labels(false) & (v.edges == 1 ? v.source : kLabels)),
       seen_by(v.visibility & kLabels) {}
 
+namespace {
+
+// Where what lies on a connection may depend on the path, it is looked at before the weight.
+Scene::Passed look_ahead(const Scene& scene, const PathRules& rules, Connection& c) {
+  const int left = rules.max_crossings - c.crossings;
+  const Scene::Passed passed =
+      left < 0 ? Scene::Passed{Rgb(0.0f)} : scene.pass(c.from, c.to, c.type, left, c.path);
+  c.through = passed.through;
+  c.by_path = passed.by_path;
+  return passed;
+}
+
+}  // namespace
+
 std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVertex& v,
                                                 const Mis& mis, const PathRules& rules,
                                                 Sampler& sampler, UnreadVertices* unread) {
@@ -42,7 +56,7 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   const Receiver target = scene.receiver(v.hit, bsdf.transmits(), v.back);
   const LightChoice choice = scene.light_sampler.sample_illumination(target, u_light);
   const Light& light = *scene.lights[choice.light];
-  const auto sample = light.sample_illumination(v.hit.p, choice.primitive, u);
+  auto sample = light.sample_illumination(v.hit.p, choice.primitive, u);
   if (!sample || v.edges + 1 > light.max_edges || !target.lit_by(light)) {
     return joined;
   }
@@ -64,16 +78,27 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   }
   const float pdf_nee = choice.pmf * sample->pdf_solid;
   const float pdf_hit = light.hittable() ? e.pdf_radiance : 0.0f;
-  const float joint =
-      scene.light_sampler.pmf_emission(choice.light) *
-      emission_density(sample->emission, std::abs(dot(wi, v.hit.ng)), sample->distance2);
+  float joint = scene.light_sampler.pmf_emission(choice.light) *
+                emission_density(sample->emission, std::abs(dot(wi, v.hit.ng)), sample->distance2);
   joined.emplace();
-  joined->connection.value = v.beta * f * sample->radiance / pdf_nee;
-  joined->connection.weight = mis.weight_nee(pdf_nee, pdf_hit, joint, v.mis, e.pdf_importance);
   joined->connection.from = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, wi);
   joined->connection.to = sample->target;
   joined->connection.type = light.shadow_ray;
   joined->connection.crossings = v.crossings;
+  if (rules.by_path) [[unlikely]] {
+    const bool transmitted = dot(v.back, v.hit.ng) * dot(wi, v.hit.ng) < 0.0f;
+    const RayType label = LabelShares::joined(e, transmitted).draw(sampler);
+    joined->connection.path = v.path_beyond(label).looking(label);
+    const Scene::Passed passed = look_ahead(scene, rules, joined->connection);
+    joint = passed.by_path ? 0.0f : joint;
+    if (light.by_path) {
+      const float length = std::sqrt(sample->distance2);
+      light.shine_on(joined->connection.path.after(passed.crossings, length), choice.primitive,
+                     *sample);
+    }
+  }
+  joined->connection.value = v.beta * f * sample->radiance / pdf_nee;
+  joined->connection.weight = mis.weight_nee(pdf_nee, pdf_hit, joint, v.mis, e.pdf_importance);
   joined->end = {joint, pdf_nee, light.hittable(), wi};
   if (unread) {
     const bool transmitted = dot(v.back, v.hit.ng) * dot(wi, v.hit.ng) < 0.0f;
@@ -85,8 +110,8 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
   return joined;
 }
 
-std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_bsdf,
-                                           const PathVertex& c, const Mis& mis,
+std::optional<Connection> connect_vertices(const Scene& scene, const LightVertex& l,
+                                           BsdfView light_bsdf, const PathVertex& c, const Mis& mis,
                                            const PathRules& rules, float scale,
                                            const Roulette& roulette, Sampler& sampler,
                                            Counters& counters, UnreadVertices* unread) {
@@ -124,11 +149,12 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   Rgb lit(1.0f);
   const bool transmitted_light = cos_light * dot(l.wi, l.ng) < 0.0f;
   const bool transmitted_camera = cos_camera * dot(wo, c.hit.ng) < 0.0f;
-  if (rules.ray_types || rules.caps_bind(l.edges + c.edges + 1)) {
+  const bool labelled = rules.ray_types || rules.by_path;
+  if (labelled || rules.caps_bind(l.edges + c.edges + 1)) {
     const BounceCounts bounces = l.bounces + c.bounces;
     auto camera_label = LabelShares::joined(at_camera, transmitted_camera);
     auto light_label = LabelShares::joined(at_light, transmitted_light);
-    if (rules.ray_types) {
+    if (labelled) {
       camera_label = camera_label.within(l.seen_by);
       const float sum = camera_label.sum();
       if (sum == 0.0f) {
@@ -162,13 +188,19 @@ std::optional<Connection> connect_vertices(const LightVertex& l, BsdfView light_
   const float pdf_area_camera = at_light.pdf_importance * std::abs(cos_camera) / d2;
   joined.emplace();
   joined->value = c.beta * at_camera.f * at_light.f * l.beta * lit * scale;
-  joined->weight = mis.weight_connection(l.mis, pdf_area_light, at_light.pdf_radiance, c.mis,
-                                         pdf_area_camera, at_camera.pdf_importance);
   joined->from = offset_origin(c.hit.p, c.hit.ng, c.hit.offset, wi);
   joined->to = offset_origin(l.p, l.ng, l.offset, -wi);
   joined->type = type;
   joined->crossings = c.crossings + l.crossings;
   joined->made_up = made_up;
+  if (rules.by_path) [[unlikely]] {
+    joined->path = c.path_beyond(type);
+    look_ahead(scene, rules, *joined);
+  }
+  static constexpr MisState kNothing;
+  const MisState& beyond = joined->by_path ? kNothing : c.mis;
+  joined->weight = mis.weight_connection(l.mis, pdf_area_light, at_light.pdf_radiance, beyond,
+                                         pdf_area_camera, at_camera.pdf_importance);
   if (unread) {
     UnreadVertex first{l.instance, ScatterShares::joined(at_light, transmitted_light)};
     UnreadVertex second{c.hit.instance, ScatterShares::joined(at_camera, transmitted_camera)};

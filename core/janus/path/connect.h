@@ -23,6 +23,15 @@ struct Connection {
   // act on it.
   float made_up = 1.0f;
   Scene::End camera = Scene::End::A;  // which end of the ray is on the side of the camera
+  PathSoFar path = {};                // as it leads to that end, if PathRules::by_path
+  // What the ray lets through, where that had to be known before: the weight depends on it.
+  std::optional<Rgb> through = {};
+  bool by_path = false;  // and that depends on the path (PathVertex::by_path)
+
+  // What arrives over it, if it may cross so many surfaces.
+  Rgb transmittance(const Scene& scene, int max_crossings) const {
+    return through ? *through : scene.transmittance(from, to, type, max_crossings, camera, &path);
+  }
 };
 
 // A light vertex as the cache keeps it.
@@ -64,9 +73,9 @@ std::optional<LightConnection> connect_to_light(const Scene& scene, const PathVe
 
 // `scale` is the estimator's factor for one connection; `roulette` plays on a bound of the
 // contribution before the BSDFs are evaluated.
-std::optional<Connection> connect_vertices(const LightVertex& light_vertex, BsdfView light_bsdf,
-                                           const PathVertex& camera_vertex, const Mis& mis,
-                                           const PathRules& rules, float scale,
+std::optional<Connection> connect_vertices(const Scene& scene, const LightVertex& light_vertex,
+                                           BsdfView light_bsdf, const PathVertex& camera_vertex,
+                                           const Mis& mis, const PathRules& rules, float scale,
                                            const Roulette& roulette, Sampler& sampler,
                                            Counters& counters, UnreadVertices* unread = nullptr);
 

@@ -36,11 +36,12 @@ Place look_at(const Scene& scene, vec3 direction, RayType type, PathVertex& v) {
   for (uint32_t i = 0; i < met.copies; ++i) {
     const Instance& copy = scene.instances[first + i];
     shade_copy(scene, direction, first + i, v);
+    const bool by_path = v.shading.bsdf.by_path();  // light walks do not know
     if (contains(copy.visibility, type)) {
       place.blocks = true;
-      place.transparency = v.shading.transparency;
+      place.transparency = by_path ? Rgb(0.0f) : v.shading.transparency;
     }
-    place.albedo[i] = may_end(copy) ? v.shading.bsdf.albedo() : 0.0f;
+    place.albedo[i] = may_end(copy) && !by_path ? v.shading.bsdf.albedo() : 0.0f;
     place.sum += place.albedo[i];
   }
   return place;
@@ -120,14 +121,16 @@ DrawnTypes draw_types(const Accel& accel, RayMask possible, Sampler& sampler) {
   return {groups[drawn], 1.0f / static_cast<float>(count)};
 }
 
-void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossings,
+void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, const PathSoFar& path,
                      int max_crossings, uint64_t& rays,
-                     const std::function<void(size_t, const LightHit&, Rgb)>& found) {
-  ShadowsAhead shadows(scene.shadow_types, crossings, max_crossings);
+                     const std::function<void(size_t, const LightHit&, LightThrough)>& found) {
+  ShadowsAhead shadows(scene.shadow_types, path.crossings, max_crossings);
+  RayMask by_path = 0;
   const auto report = [&](size_t index, const LightHit& light) {
-    const Rgb through = shadows.through(scene.lights[index]->shadow_ray);
+    const RayType type = scene.lights[index]->shadow_ray;
+    const Rgb through = shadows.through(type);
     if (!is_black(through)) {
-      found(index, light, through);
+      found(index, light, {through, contains(by_path, type)});
     }
   };
   Ray segment = ray;
@@ -138,14 +141,17 @@ void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossing
     ++rays;
     const bool surface = scene.accel->intersect_any(segment, hit);
     const float t_end = surface ? glm::length(hit.p - ray.origin) : ray.t_max;
-    lamps_between(scene, ray, t_begin, t_end, surface, report);
+    lamps_between(scene, ray, t_begin, t_end, surface, path.after(shadows.crossings(), t_end),
+                  report);
     if (!surface) {
       return;
     }
     const Instance& met = scene.instances[hit.instance];
+    const PathSoFar here = path.after(shadows.crossings(), t_end);
+    RayMask asked = 0;
     for (uint32_t i = 0; i < met.copies; ++i) {
       scene.turn_to_copy(hit, met.first_copy + i);
-      scene.shade(hit, -ray.direction, shading);
+      scene.shade(hit, -ray.direction, shading, here);
       if (size_t index; !is_black(shading.emission)) {
         if (const MeshLight* light = scene.mesh_light(hit, index)) {
           const LightHit shine = light->at(hit, from, ray.direction, shading.emission);
@@ -154,8 +160,11 @@ void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossing
           }
         }
       }
-      shadows.meet(scene.instances[hit.instance].visibility, shading.transparency);
+      const RayMask seen_by = scene.instances[hit.instance].visibility;
+      asked |= shading.bsdf.by_path() ? seen_by : 0;
+      shadows.meet(seen_by, shading.transparency);
     }
+    by_path |= asked;
     if (shadows.ended()) {
       return;
     }

@@ -4,6 +4,10 @@
 // of the path: a walk passes them by chance, a connection multiplies their transparencies, and they
 // appear in no density (the same factor in both walks, as a null collision). Their number is
 // limited over the whole path, so that it is a property of the path and not of the technique.
+//
+// Where what lets light through depends on the path (PathSoFar), only walks and joins from the
+// camera's side know it. Light walks end there, so that the density of all that they would do
+// behind it is nought: weights are told by PathVertex::by_path, and joins by Connection.
 #pragma once
 
 #include <functional>
@@ -15,15 +19,15 @@
 namespace janus {
 
 // Calls f(light, LightHit) for the lamps on `ray` between two distances; `surface`: there is one at
-// t_end, else the ray may leave the scene there.
+// t_end, else the ray may leave the scene there; `path`: that leads there, but for its length.
 template <class F>
 void lamps_between(const Scene& scene, const Ray& ray, float t_begin, float t_end, bool surface,
-                   F&& f) {
+                   const PathSoFar& path, F&& f) {
   const Ray up_to{ray.origin, ray.direction, t_end};
   scene.lamp_index.for_each_on_ray(up_to, [&](size_t lamp) {
     const Light& light = *scene.lights[lamp];
     const float t_max = light.infinite() && !surface ? kInfinity : t_end;
-    const auto hit = light.intersect(Ray{ray.origin, ray.direction, t_max});
+    const auto hit = light.look_along(Ray{ray.origin, ray.direction, t_max}, path);
     if (hit && hit->t > t_begin) {
       f(lamp, *hit);
     }
@@ -50,6 +54,7 @@ bool fly(const Scene& scene, const Ray& ray, RayType type, TransportMode mode, i
          Sampler& sampler, uint64_t& rays, PathVertex& v, OnSegment&& on_segment) {
   Ray segment = ray;
   float t_begin = 0.0f;
+  v.by_path = false;
   for (;;) {
     ++rays;
     if (!scene.intersect(segment, type, v.hit)) {
@@ -58,7 +63,8 @@ bool fly(const Scene& scene, const Ray& ray, RayType type, TransportMode mode, i
     }
     const float t_end = glm::length(v.hit.p - ray.origin);
     if (mode == TransportMode::Radiance) {
-      scene.shade(v.hit, -ray.direction, v.shading, v.reshading);
+      scene.shade(v.hit, -ray.direction, v.shading, v.reshading,
+                  scene.has_by_path ? v.path(t_end) : PathSoFar());
     } else {
       shade_from_light(scene, ray.direction, v);
     }
@@ -66,6 +72,10 @@ bool fly(const Scene& scene, const Ray& ray, RayType type, TransportMode mode, i
     const Rgb transparency = v.shading.transparency;
     if (is_black(transparency)) {
       return true;
+    }
+    const bool by_path = v.shading.bsdf.by_path();
+    if (by_path && mode == TransportMode::Importance) [[unlikely]] {
+      return false;
     }
     // The choice depends on the surface alone, so that both walks take it in the same way.
     const float through = average(transparency);
@@ -78,6 +88,7 @@ bool fly(const Scene& scene, const Ray& ray, RayType type, TransportMode mode, i
       return false;
     }
     ++v.crossings;
+    v.by_path |= by_path;
     v.beta *= transparency / pmf_pass;
     segment.origin = offset_origin(v.hit.p, v.hit.ng, v.hit.offset, ray.direction);
     segment.t_max = ray.t_max - t_end;
@@ -103,13 +114,19 @@ struct DrawnTypes {
 };
 DrawnTypes draw_types(const Accel& accel, RayMask possible, Sampler& sampler);
 
-// Calls found(light, LightHit, transmittance) for each light on `ray` from a vertex at `from`, the
+// What lies before a light: what lets it through, and whether that depends on the path.
+struct LightThrough {
+  Rgb share;
+  bool by_path;
+};
+
+// Calls found(light, LightHit, LightThrough) for each light on `ray` from a vertex at `from`, the
 // way as a shadow ray sees it: surfaces that shadow rays do not meet emit, but do not block.
-// `crossings`: of the path so far. Lights that cast no shadows are found behind everything;
+// `path`: that leads to the ray. Lights that cast no shadows are found behind everything;
 // surfaces that no shadow ray looks for, not at all. (A world of one colour needs no shadow rays,
 // but it is seen as they would.)
-void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, int crossings,
+void look_for_lights(const Scene& scene, vec3 from, const Ray& ray, const PathSoFar& path,
                      int max_crossings, uint64_t& rays,
-                     const std::function<void(size_t, const LightHit&, Rgb)>& found);
+                     const std::function<void(size_t, const LightHit&, LightThrough)>& found);
 
 }  // namespace janus

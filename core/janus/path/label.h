@@ -13,6 +13,7 @@
 #include "janus/sampling/sampler.h"
 #include "janus/scene/ray_type.h"
 #include "janus/shading/bsdf.h"
+#include "janus/shading/path_so_far.h"
 
 namespace janus {
 
@@ -168,24 +169,6 @@ class ScatterShares {
 
   uint32_t events_;  // bits by scatter_event(): a diffuse one, another, or both
   Rgb diffuse_;      // by channel, of both
-};
-
-// Bounces of a part of a path by label.
-struct BounceCounts {
-  uint16_t of[3] = {};
-
-  BounceCounts with(RayType label) const {
-    BounceCounts more = *this;
-    ++more.of[static_cast<int>(label)];
-    return more;
-  }
-  BounceCounts operator+(const BounceCounts& o) const {
-    BounceCounts sum;
-    for (int i = 0; i < 3; ++i) {
-      sum.of[i] = static_cast<uint16_t>(of[i] + o.of[i]);
-    }
-    return sum;
-  }
 };
 
 }  // namespace janus

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace janus {
@@ -15,6 +16,7 @@ struct Scattering {
   const PathVertex *light, *camera;
   bool delta = false;                                     // as sampled; joins make it false
   double discrete_radiance = 0, discrete_importance = 0;  // of the delta event
+  bool by_path = false;  // light walks do not come over the segment on its camera side
 };
 
 // A finished path with z_1 ... z_{k-1}, and its ends as densities.
@@ -89,7 +91,16 @@ struct FullPath {
     }
     return shortest;
   }
-  bool one_way(int i) const { return z(i).light->bsdf().kind() == VertexKind::OneWay; }
+  bool one_way(int i) const { return z(i).light->shading.bsdf.one_way(); }
+  // Can a light walk come to z_i?
+  bool from_light(int i) const {
+    for (int j = 1; j < i; ++j) {
+      if (one_way(j) || z(j).by_path) {
+        return false;
+      }
+    }
+    return !one_way(i);
+  }
   bool allowed(int s) const {
     if (s == 0) {
       return hittable;
@@ -97,8 +108,8 @@ struct FullPath {
     if (s == 1) {
       return !z(1).delta;
     }
-    if (one_way(s - 1)) {
-      return false;  // no walk from a light ends there
+    if (!from_light(s - 1)) {
+      return false;
     }
     if (s == k()) {
       return !z(k() - 1).delta;
@@ -133,7 +144,8 @@ struct FullPath {
       own = i == s ? term : own;
     }
     for (int i = 2; i < k() && counts.merge > 0.0f; ++i) {
-      total += z(i).delta || one_way(i) ? 0.0 : std::pow(counts.merge * merge_density(i), exponent);
+      total +=
+          z(i).delta || !from_light(i) ? 0.0 : std::pow(counts.merge * merge_density(i), exponent);
     }
     return total > 0.0 ? own / total : 0.0;
   }
@@ -190,12 +202,18 @@ struct Visits {
 };
 
 // z_1 ... from the first visits of the light walk, then those of the camera walk, whose last vertex
-// comes first.
-FullPath join(const Visits& light, size_t i, const Visits& camera, size_t j) {
+// comes first. `by_path`: of the segment between the two.
+FullPath join(const Visits& light, size_t i, const Visits& camera, size_t j, bool by_path = false) {
   FullPath path;
   path.interior = light.vertices(i, TransportMode::Importance);
+  if (!path.interior.empty()) {
+    path.interior.back().by_path = by_path;
+  }
   const auto seen = camera.vertices(j, TransportMode::Radiance);
   path.interior.insert(path.interior.end(), seen.rbegin(), seen.rend());
+  for (Scattering& s : std::span(path.interior).subspan(path.interior.size() - seen.size())) {
+    s.by_path = s.camera->by_path;
+  }
   return path;
 }
 
@@ -272,9 +290,10 @@ WeightCheck check_weights(const Scene& scene, const Camera& camera, vec2 raster,
     }
     for (size_t i = 1; i <= light.all.size() && counts.connection > 0.0f; ++i) {
       const PathVertex& l = light.all[i - 1];
-      if (const auto connection = connect_vertices(LightVertex(l), l.bsdf(), v, mis, settings, 1.0f,
-                                                   Roulette(), walk_sampler, counters)) {
-        FullPath path = join(light, i, seen, j);
+      if (const auto connection =
+              connect_vertices(scene, LightVertex(l), l.bsdf(), v, mis, settings, 1.0f, Roulette(),
+                               walk_sampler, counters)) {
+        FullPath path = join(light, i, seen, j, connection->by_path);
         set_light(path, light.all[0].light_end);
         path.camera = seen.all[0].camera_end;
         compare(path, l.edges + 1, connection->weight.value);

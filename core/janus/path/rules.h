@@ -61,6 +61,7 @@ struct PathRules {
   float clear_glass = -1.0f;
   bool catchers = false;   // are there shadow catchers that the camera may see (path/catching.h)
   bool ray_types = false;  // Scene::has_ray_types: what is met depends on the labels
+  bool by_path = false;    // Scene::has_by_path: what it does, on the path that leads there
   // The light path expressions that paths are sorted by; null: none.
   const PathAutomaton* expressions = nullptr;
 
@@ -71,7 +72,7 @@ struct PathRules {
   // Do vertices depend on whether the view to them is clear?
   bool clear_views() const { return holdouts || clear_glass >= 0.0f; }
   // Must walks know their labels?
-  bool labels() const { return ray_types || counts(); }
+  bool labels() const { return ray_types || by_path || counts(); }
 };
 
 }  // namespace janus

@@ -216,9 +216,10 @@ ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2
     const Ray& ray = step.ray;
     const RayType type = v.edges == 1 ? RayType::Camera : step.label;
     // Is the light ahead seen otherwise than the next vertex?
-    const bool shadow_ray = settings.ray_types && v.edges > 1 && !step.left.delta &&
-                            (scene.has_own_shadows || !scene.accel->alike(type, RayType::Shadow));
-    const auto found = [&](size_t index, const LightHit& hit, Rgb beta) {
+    const bool shadow_ray =
+        (settings.ray_types || settings.by_path) && v.edges > 1 && !step.left.delta &&
+        (settings.by_path || scene.has_own_shadows || !scene.accel->alike(type, RayType::Shadow));
+    const auto found = [&](size_t index, const LightHit& hit, Rgb beta, bool by_path) {
       const Light& light = *scene.lights[index];
       if (v.clear && hidden_in_clear_view(light, settings)) {
         return;
@@ -235,8 +236,10 @@ ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2
       if (settings.ray_types) {
         beta *= step.lit_share(light.visibility);
       }
-      const float joint = scene.light_sampler.pmf_emission(index) *
-                          emission_density(hit.emission, step.cos_previous, hit.distance2);
+      const float joint =
+          by_path ? 0.0f  // no light walk comes over this segment
+                  : scene.light_sampler.pmf_emission(index) *
+                        emission_density(hit.emission, step.cos_previous, hit.distance2);
       const float pdf_nee = scene.light_sampler.pmf_illumination(previous, index, hit.primitive) *
                             hit.pdf_illumination;
       on_light(LightFound{
@@ -253,8 +256,9 @@ ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2
     };
     const auto on_segment = [&](float t_begin, float t_end, bool surface) {
       if (!shadow_ray) {
-        lamps_between(scene, ray, t_begin, t_end, surface,
-                      [&](size_t lamp, const LightHit& hit) { found(lamp, hit, v.beta); });
+        lamps_between(
+            scene, ray, t_begin, t_end, surface, settings.by_path ? v.path(0.0f) : PathSoFar(),
+            [&](size_t lamp, const LightHit& hit) { found(lamp, hit, v.beta, v.by_path); });
       }
       if (settings.catchers && surface && v.edges == 1 && !v.caught) {
         v.caught = catch_view(scene, v.hit, ray, settings, v.beta, coverage);
@@ -271,15 +275,17 @@ ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2
         if (const MeshLight* light = scene.mesh_light(v.hit, index)) {
           const LightHit hit = light->at(v.hit, previous.p, ray.direction, v.shading.emission);
           if (!shadow_ray || hit.by_chance()) {
-            found(index, hit, v.beta);
+            found(index, hit, v.beta, v.by_path);
           }
         }
       }
     };
     if (shadow_ray) {
-      look_for_lights(scene, previous.p, ray, v.crossings, settings.max_crossings,
-                      counters.camera_rays, [&](size_t index, const LightHit& hit, Rgb through) {
-                        found(index, hit, v.beta * through);
+      look_for_lights(scene, previous.p, ray,
+                      settings.by_path ? v.path(0.0f).looking(type) : v.path(0.0f),
+                      settings.max_crossings, counters.camera_rays,
+                      [&](size_t index, const LightHit& hit, LightThrough through) {
+                        found(index, hit, v.beta * through.share, through.by_path);
                       });
     }
     if (!fly(scene, ray, type, TransportMode::Radiance, settings.max_crossings, sampler,
@@ -305,6 +311,9 @@ ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2
     if (v.shading.bsdf.one_way()) {
       v.mis.a = {};  // no walk from a light ends here
     }
+    if (v.by_path) {
+      v.mis.b = {};  // or goes from here to the vertex before
+    }
     v.previous = step.left;
     sampler.start_block(v.edges);
     on_vertex(v, sampler);
@@ -323,7 +332,7 @@ ViewCoverage trace_camera_subpath(const Scene& scene, const Camera& camera, vec2
     if (settings.specular && !specular) {
       return coverage;
     }
-    if (settings.counts()) {
+    if (settings.counts() || settings.by_path) {
       v.bounces = v.bounces.with(step.label);
     }
     previous = scene.receiver(v.hit, v.bsdf().transmits(), v.back);

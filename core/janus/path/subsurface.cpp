@@ -57,6 +57,9 @@ bool come_up(const Scene& scene, const Mis& mis, const BsdfSample& sample, Trans
         l.pmf_normal = l.pmf_grazing = 0.0f;  // of light walks that go below
       }
     }
+    if (bsdf.by_path()) {
+      v.mis.a.merge = 0.0f;
+    }
     bsdf.set_kind(VertexKind::SubsurfaceExit);
   } else {
     if (!other) {

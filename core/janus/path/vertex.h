@@ -48,11 +48,11 @@ struct PathVertex {
   vec3 back;  // unit direction to the previous vertex: wi on light, wo on camera subpaths
   Rgb beta;   // light: flux that arrives; camera: throughput
   MisState mis;
-  int edges;                      // from the start of the subpath
-  int crossings;                  // of transparent surfaces since the start of the subpath
-  BounceCounts bounces;           // at the vertices before this one, if PathRules::counts()
-  PathTrace* trace = nullptr;     // of all before it; null without PathRules::expressions
-  Departure previous;             // how the walk left the vertex before (edges > 1)
+  int edges;                   // from the start of the subpath
+  int crossings;               // of transparent surfaces since the start of the subpath
+  BounceCounts bounces;        // at the vertices before this one, if PathRules::counts() or by_path
+  PathTrace* trace = nullptr;  // of all before it; null without PathRules::expressions
+  Departure previous;          // how the walk left the vertex before (edges > 1)
   RayMask visibility = kAllRays;  // of its object, if PathRules::ray_types
   // Light subpaths, if PathRules::ray_types: what sees the light, and the types that were drawn for
   // the segment that led here. The vertex has to turn out to be of one of them.
@@ -63,6 +63,9 @@ struct PathVertex {
   // If PathRules::catchers (path/catching.h). Camera subpaths: the path belongs to a shadow
   // catcher. Light subpaths: it does if the camera sees this vertex.
   bool caught = false;
+  // Camera subpaths: what lets the segment through that leads here depends on the path, so that no
+  // light subpath comes over it (path/flight.h).
+  bool by_path = false;
   int max_edges;       // light subpaths: of the whole path, with this vertex no delta if it is z_1
   LightEnd light_end;  // light subpaths: their start
   uint32_t pixel = 0;  // light subpaths: Light::pixel() of their start
@@ -71,6 +74,23 @@ struct PathVertex {
 
   BsdfView bsdf() const {
     return shading.bsdf.view(hit.ng, shading.ns, reshading.program ? &reshading : nullptr);
+  }
+
+  // Camera subpaths: the path as it comes to this vertex over `length`, and as it comes to what
+  // lies behind it if this vertex gets `label`.
+  PathSoFar path(float length) const {
+    PathSoFar path;
+    path.ray_length = length;
+    path.depth = static_cast<uint16_t>(edges - 1);
+    path.bounces = bounces;
+    path.crossings = static_cast<uint16_t>(crossings);
+    return path;
+  }
+  PathSoFar path_beyond(RayType label) const {
+    PathSoFar beyond = path(0.0f);
+    ++beyond.depth;
+    beyond.bounces = bounces.with(label);
+    return beyond;
   }
 
   // The labels that a vertex of a light subpath may have; `delta`: it scatters by a delta.

@@ -194,7 +194,15 @@ class Commit {
                             [&](const auto& i) { return partial(i.visibility, kAllRays); }) ||
         std::ranges::any_of(scene_.lights,
                             [&](const auto& l) { return partial(l->visibility, kLabels); });
+    for (const Instance& instance : scene_.instances) {
+      for (const uint32_t surface : instance.materials) {
+        const Program& program = scene_.surfaces.program(surface);
+        scene_.has_by_path |= program.by_path;
+        scene_.has_path_crossings |= program.by_path && program.has_transparency();
+      }
+    }
     for (const auto& light : scene_.lights) {
+      scene_.has_by_path |= light->by_path;
       scene_.shadow_types |= ray_bit(light->shadow_ray);
       scene_.has_links = scene_.has_links || light->link_set >= 0;
     }

@@ -56,8 +56,9 @@ Rgb Scene::transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings
     if (!accel->intersect_transparent(ray, type, hit)) {
       return result;
     }
-    result *= shade(hit, camera == End::A ? -d : d).transparency;
-    if (is_black(result) || crossings >= max_crossings) {
+    const ShadingResult shading = shade(hit, camera == End::A ? -d : d);
+    result *= shading.transparency;
+    if (is_black(result) || crossings >= max_crossings || shading.bsdf.by_path()) {
       return Rgb(0.0f);
     }
     ray.origin = offset_origin(hit.p, hit.ng, hit.offset, d);
@@ -66,6 +67,34 @@ Rgb Scene::transmittance_through(vec3 a, vec3 b, RayType type, int max_crossings
       return result;
     }
   }
+}
+
+Scene::Passed Scene::pass(vec3 camera, vec3 light, RayType type, int max_crossings,
+                          const PathSoFar& path) const {
+  Passed passed;
+  if (accel->occluded_opaque(camera, light, type)) {
+    passed.through = Rgb(0.0f);
+    return passed;
+  }
+  const float length = glm::length(light - camera);
+  const vec3 d = (light - camera) / length;
+  const float rest = (1.0f - Accel::kShadowReach) * length;
+  Ray ray{camera, d, length - rest};
+  SurfaceInteraction hit;
+  while (ray.t_max > 0.0f && accel->intersect_transparent(ray, type, hit)) {
+    const float t = glm::length(hit.p - camera);
+    const ShadingResult shading = shade(hit, -d, path.after(passed.crossings, t));
+    passed.through *= shading.transparency;
+    passed.by_path = passed.by_path || shading.bsdf.by_path();
+    if (is_black(passed.through) || passed.crossings >= max_crossings) {
+      passed.through = Rgb(0.0f);
+      return passed;
+    }
+    ++passed.crossings;
+    ray.origin = offset_origin(hit.p, hit.ng, hit.offset, d);
+    ray.t_max = dot(light - ray.origin, d) - rest;
+  }
+  return passed;
 }
 
 std::optional<vec3> Scene::find_passed_catcher(vec3 a, vec3 b) const {

@@ -44,13 +44,14 @@ class Scene {
     hit.instance = copy;
     hit.material = instance.material(shapes[instance.shape]->material(hit.primitive));
   }
-  // What the surface does there, seen from the unit direction `view`.
-  void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result) const {
-    surfaces.shade(hit, view, result);
-  }
+  // What the surface does there, seen from the unit direction `view` at the end of `path`.
   void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result,
-             Reshading& reshading) const {
-    surfaces.shade(hit, view, result, reshading);
+             const PathSoFar& path = {}) const {
+    surfaces.shade(hit, view, result, path);
+  }
+  void shade(const SurfaceInteraction& hit, vec3 view, ShadingResult& result, Reshading& reshading,
+             const PathSoFar& path = {}) const {
+    surfaces.shade(hit, view, result, reshading, path);
   }
   bool occluded(vec3 a, vec3 b, RayType type = RayType::Shadow) const {
     return accel->occluded(a, b, type);
@@ -58,22 +59,36 @@ class Scene {
 
   // What the surfaces that rays of `type` meet on the open segment from `a` to `b` let through;
   // black if one of them is opaque, or if they are more than `max_crossings`. `camera`: the end on
-  // the camera's side, from which they are seen.
+  // the camera's side, from which they are seen; `path`: how it leads there. Where that is not
+  // known, what depends on it lets nothing through.
   enum class End { A, B };
-  Rgb transmittance(vec3 a, vec3 b, RayType type, int max_crossings, End camera = End::A) const {
+  Rgb transmittance(vec3 a, vec3 b, RayType type, int max_crossings, End camera = End::A,
+                    const PathSoFar* path = nullptr) const {
     if (!has_transparency) {
       return Rgb(occluded(a, b, type) ? 0.0f : 1.0f);
     }
+    if (path && has_path_crossings) [[unlikely]] {
+      return pass(camera == End::A ? a : b, camera == End::A ? b : a, type, max_crossings, *path)
+          .through;
+    }
     return transmittance_through(a, b, type, max_crossings, camera);
   }
+  // The same from the camera's side to the light's, with what was passed.
+  struct Passed {
+    Rgb through = Rgb(1.0f);
+    int crossings = 0;
+    bool by_path = false;  // some of it depends on the path
+  };
+  Passed pass(vec3 camera, vec3 light, RayType type, int max_crossings,
+              const PathSoFar& path) const;
   // The first shadow catcher that is passed on the open segment, which is clear to the camera, from
   // there at `a` to `b`: a point before its surface.
   std::optional<vec3> passed_catcher(vec3 a, vec3 b) const {
     return has_clear_catchers ? find_passed_catcher(a, b) : std::nullopt;
   }
-  ShadingResult shade(const SurfaceInteraction& hit, vec3 view) const {
+  ShadingResult shade(const SurfaceInteraction& hit, vec3 view, const PathSoFar& path = {}) const {
     ShadingResult result;
-    shade(hit, view, result);
+    shade(hit, view, result, path);
     return result;
   }
 
@@ -113,6 +128,8 @@ class Scene {
   bool has_own_shadows = false;     // some are not RayType::Shadow
   bool has_links = false;           // some light does not shine on everything
   bool has_ray_types = false;       // that, or some object or light is not visible to all rays
+  bool has_by_path = false;         // some surface or light depends on the path to it
+  bool has_path_crossings = false;  // so does what some surface lets through
   bool has_holdouts = false;        // of some object or surface
   bool has_clear_catchers = false;  // shadow catchers that are transparent in places
   Bounds surroundings;              // of all surfaces, at all times

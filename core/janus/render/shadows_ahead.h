@@ -33,6 +33,9 @@ class ShadowsAhead {
     });
   }
 
+  // What the ray has crossed, as the first of the types counts it.
+  int crossings() const { return types_ == 0 ? 0 : crossings_[0]; }
+
   // Can no light be seen any more?
   bool ended() const {
     bool dark = true;

@@ -159,6 +159,7 @@ IntegratorSettings RenderSession::integrator_settings(const Scene& scene,
                                 settings_.max_transmission_bounces);
   result.clamp = Clamp(settings_.clamp_direct, settings_.clamp_indirect);
   result.walk.ray_types = scene.has_ray_types;
+  result.walk.by_path = scene.has_by_path;
   result.walk.holdouts = scene.has_holdouts;
   result.walk.catchers = layers.caught;
   result.walk.film_transparent = settings_.film_transparent;

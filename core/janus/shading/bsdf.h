@@ -55,7 +55,8 @@ enum class VertexKind : uint8_t {
   Surface,
   // Light subpaths end there, so that their density, here and behind, is nought. Light goes through
   // a fibre in one event, at the point which the camera side sees: from the light's side that point
-  // is behind the fibre, where no ray can find it.
+  // is behind the fibre, where no ray can find it. And what a surface does may depend on the path
+  // from the camera that leads there (PathSoFar).
   OneWay,
   // Where a walk has come up from below: a light subpath at the entry, a camera subpath at the exit
   // (shading/subsurface.h). What is said to be the direction on the side that it comes from is
@@ -152,6 +153,7 @@ class Bsdf {
   Bsdf& operator=(const Bsdf& other) {
     count_ = other.count_;
     kind_ = other.kind_;
+    by_path_ = other.by_path_;
     std::copy_n(other.lobes_, count_, lobes_);
     return *this;
   }
@@ -173,11 +175,15 @@ class Bsdf {
     }
     return added;
   }
-  void clear() { count_ = 0, kind_ = VertexKind::Surface; }
+  void clear() { count_ = 0, kind_ = VertexKind::Surface, by_path_ = false; }
 
   VertexKind kind() const { return kind_; }
-  bool one_way() const { return kind_ == VertexKind::OneWay; }
+  bool one_way() const { return kind_ == VertexKind::OneWay || by_path_; }
   void set_kind(VertexKind kind) { kind_ = kind; }
+  // Does the surface look different to each path? It is OneWay, then, at both ends of a walk below
+  // it; nor do light subpaths know what it lets through.
+  bool by_path() const { return by_path_; }
+  void set_by_path() { by_path_ = true; }
 
   // An estimate of the share of light that is scattered.
   float albedo() const;
@@ -196,6 +202,7 @@ class Bsdf {
  private:
   int count_ = 0;
   VertexKind kind_ = VertexKind::Surface;
+  bool by_path_ = false;
   Lobe lobes_[kMaxLobes];  // not initialised beyond the count
 };
 

@@ -338,6 +338,7 @@ void GraphCompiler::assign_registers(const std::vector<bool>& used) {
     program_.instructions.push_back({step.operation.kernel, first, step.data,
                                      static_cast<uint16_t>(place[step.result.index]), step.at});
     program_.dependence = std::max(program_.dependence, step.operation.dependence);
+    program_.by_path |= step.operation.by_path;
     const auto done = static_cast<uint32_t>(program_.instructions.size());
     if (s < bump_steps_) {
       program_.bump_instructions = done;

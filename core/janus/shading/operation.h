@@ -34,6 +34,7 @@ struct Operation {
   Dependence dependence;
   // Asks for the memory that the kernel will wait for; it writes nothing. Null: there is none.
   Kernel prefetch = nullptr;
+  bool by_path = false;  // it depends on the path that leads to the point
 };
 
 namespace detail {
@@ -104,5 +105,12 @@ template <auto F>
 inline constexpr Operation by_side = detail::MakeOf<F>::operation(true, Dependence::Side);
 template <auto F>
 inline constexpr Operation by_view = detail::MakeOf<F>::operation(true, Dependence::View);
+// Of the path between the camera and the point (ShadingPoint::path).
+template <auto F>
+inline constexpr Operation by_path = [] {
+  Operation operation = detail::MakeOf<F>::operation(true, Dependence::None);
+  operation.by_path = true;
+  return operation;
+}();
 
 }  // namespace janus

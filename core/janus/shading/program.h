@@ -106,6 +106,7 @@ class Program {
   bool fibers = false;               // some closure is one of hair
   bool edges = false;                // some operation reads the triangle's, and how wide a pixel is
   Dependence dependence = Dependence::None;
+  bool by_path = false;       // something depends on the path that leads to the point
   std::vector<SunDisc> suns;  // which a world looks for
   bool transmits = false;     // some closure scatters to the other side, or may
   // Of the first instructions: they make the normal of the surface, which all others see.

@@ -10,6 +10,7 @@
 
 #include "janus/math/vec.h"
 #include "janus/scene/description.h"
+#include "janus/shading/path_so_far.h"
 
 namespace janus {
 
@@ -40,7 +41,7 @@ struct TriangleIndices {
   uint32_t vertices[3], corners[3], face;
 };
 
-// Not initialized: a walk carries room for one, and seldom needs it.
+// Hardly initialized: a walk carries room for one, and seldom needs it.
 struct ShadingPoint {
   vec3 p;       // world
   vec3 ng, ns;  // unit, front side
@@ -59,7 +60,8 @@ struct ShadingPoint {
   vec3 object_normal;
   // For shifted(): the normals of the corners in object space, or nothing.
   vec3 corner_normals[3];
-  float ray_length;        // of the light of lamps alone: metres to what it lights, or infinite
+  // Of the light of lamps, its length alone: to what it lights.
+  PathSoFar path;
   bool moved;              // by shifted()
   bool on_curve, on_ball;  // else on a triangle, or nowhere
 

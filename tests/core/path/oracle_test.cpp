@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "light/light_cases.h"
+#include "support/by_path.h"
 #include "support/statistics.h"
 
 namespace janus::test {
@@ -162,6 +163,18 @@ const OracleScene kScenes[] = {
            .add("lamp", cuboid({-0.3f, -0.3f, 0.7f}, {0.3f, 0.3f, 0.9f}),
                 single("BSDF_PRINCIPLED", {{"Alpha", 0.5f}, {"Emission Strength", 5.0f}}));
      }},
+    {"surfaces_by_path", &surfaces_by_path},    // where light walks end, too
+    {"emitters_by_path", &emitters_by_path},    // which make none
+    {"crossings_by_path", &crossings_by_path},  // and of these, over which they do not go
+    {"world_by_path",
+     [] { return world_by_path(lamp_by_path(emitters_by_path(), "Ray Depth", 1.5f)); }},
+    {"wax_by_path",
+     [] {
+       return crossings_by_path().add(
+           "wax", ball(0.3f, 10, true),
+           by_count("Ray Depth", 0.5f, subsurface(Rgb(0.9f, 0.5f, 0.3f)), diffuse(Rgb(0.6f))),
+           translation({-0.3f, -0.5f, 0.3f}));
+     }},
     {"sun_spot_and_sky",
      [] {
        Image sky(8, 4, 3);
@@ -195,6 +208,7 @@ WeightCheck check(const Scene& scene, Heuristic heuristic, const SampleCounts& c
   Random random(7);
   WalkSettings settings;
   settings.max_edges = max_edges;
+  settings.by_path = scene.has_by_path;
   WeightCheck sum;
   for (int i = 0; i < samples(paths); ++i) {
     const vec2 raster = static_cast<float>(kSide) * random.next_2d();

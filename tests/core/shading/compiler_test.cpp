@@ -265,20 +265,24 @@ TEST(Compiler, CutsCycles) {
   EXPECT_EQ(result.program.lobes.size(), 1u);
 }
 
-// Sixty nodes, each of which uses the next one twice: 2^60 ways to the last.
-// What a world is told of rays is constant; a surface is not told yet.
+// What kind of ray asks is constant; what the path counts is not, and nobody else may ask.
 TEST(Compiler, LightPath) {
   NodeGraph graph = combine("MIX_SHADER", emission(Rgb(1), 1), emission(Rgb(1), 3));
   graph.nodes.back().inputs["Fac"] = link("Path", "Is Glossy Ray");
   graph.nodes.push_back(node("Path", "LIGHT_PATH", {}));
   NodeGraph deep = graph;
   deep.nodes[2].inputs["Fac"] = link("Path", "Ray Depth");
-  EXPECT_TRUE(warned(compiled(deep), "Path", "'Ray Depth' is not supported"));
+  const Compiled counting = compiled(deep);
+  EXPECT_TRUE(counting.diagnostics.empty());
+  EXPECT_TRUE(counting.program.by_path);
+  deep.nodes[2].inputs["Fac"] = link("Path", "Is Singular Ray");
+  EXPECT_TRUE(warned(compiled(deep), "Path", "'Is Singular Ray' is not supported"));
   Diagnostics said;
   const Program glossy = compile(graph, "World", {}, said, {SeenTree::Of::World, RayType::Glossy});
   const Program camera = compile(graph, "World", {}, said, {SeenTree::Of::World, RayType::Camera});
   EXPECT_TRUE(said.empty());
   EXPECT_TRUE(glossy.constant() && camera.constant());
+  EXPECT_FALSE(glossy.by_path);
   EXPECT_EQ(glossy.emission, Rgb(3));
   EXPECT_EQ(camera.emission, Rgb(1));
   EXPECT_TRUE(glossy.emits_like(
@@ -286,6 +290,7 @@ TEST(Compiler, LightPath) {
   EXPECT_FALSE(glossy.emits_like(camera));
 }
 
+// Sixty nodes, each of which uses the next one twice: 2^60 ways to the last.
 TEST(Compiler, SharedBranchesDoNotExplode) {
   NodeGraph graph;
   for (int i = 0; i < 60; ++i) {

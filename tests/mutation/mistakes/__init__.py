@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from mistakes.below import BELOW
+from mistakes.by_path import BY_PATH
 from mistakes.catchers import CATCHERS
 from mistakes.clear_views import CLEAR
 from mistakes.data import DATA_AND_COMMITS
@@ -21,4 +22,4 @@ from mistakes.views import VIEWS
 
 MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES + SPECULAR_WALKS
 MISTAKES += LECTURE_MADE_VISIBLE + DATA_AND_COMMITS + MOTION_AND_LINKING + CATCHERS + FIBERS
-MISTAKES += BELOW + TRANSPORT
+MISTAKES += BELOW + TRANSPORT + BY_PATH

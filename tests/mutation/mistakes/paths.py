@@ -153,7 +153,7 @@ PATHS = (
         "light walks do not stop at surfaces that their own rays do not meet",
         RAY_TYPES,
         FLIGHT_APART,
-        "may_end(copy) ? v.shading.bsdf.albedo()",
+        "may_end(copy) && !by_path ? v.shading.bsdf.albedo()",
         "may_end(copy) && place.blocks ? v.shading.bsdf.albedo()",
     ),
     one(

@@ -72,8 +72,8 @@ VIEWS = (
         "light walks end at one copy of a surface alone, whatever others there are in its place",
         ONLOOKERS,
         FLIGHT_APART,
-        "may_end(copy) ? v.shading",
-        "i == 0 && may_end(copy) ? v.shading",
+        "may_end(copy) && !by_path ? v.shading",
+        "i == 0 && may_end(copy) && !by_path ? v.shading",
     ),
     one(
         "copies-share-a-material",
@@ -90,8 +90,8 @@ VIEWS = (
         "a light that is looked for is seen on one copy of a surface alone",
         ONLOOKERS,
         FLIGHT_APART,
-        "      scene.shade(hit, -ray.direction, shading);",
-        "      if (i > 0) break;\n      scene.shade(hit, -ray.direction, shading);",
+        "      scene.shade(hit, -ray.direction, shading, here);",
+        "      if (i > 0) break;\n      scene.shade(hit, -ray.direction, shading, here);",
     ),
     one(
         "untinted-light-paths",

@@ -112,6 +112,29 @@ constexpr std::string_view kLightPath[] = {
 
 constexpr float kFar = std::numeric_limits<float>::max();  // of what is infinitely far
 
+template <auto Count>
+constexpr Operation kPathCount =
+    by_path<[](const Context& c) { return static_cast<float>(Count(c.point.path)); }>;
+// As Cycles counts vertices, for the three kinds of trees (PathSoFar).
+constexpr Operation kRayDepth[] = {
+    kPathCount<[](const PathSoFar& path) { return path.depth; }>,
+    kPathCount<[](const PathSoFar& path) { return path.depth + 1; }>,
+    kPathCount<[](const PathSoFar& path) { return path.depth + (path.looks ? 0 : 1); }>,
+};
+// Of bounces with a label, and of those that worlds see.
+template <int Label>
+constexpr Operation kLabelled =
+    kPathCount<[](const PathSoFar& path) { return path.bounces.of[Label]; }>;
+template <int Label>
+constexpr Operation kLabelledOfWorld =
+    kPathCount<[](const PathSoFar& path) { return path.all_bounces().of[Label]; }>;
+constexpr Operation kCrossings = kPathCount<[](const PathSoFar& path) { return path.crossings; }>;
+constexpr Operation kRayLength =
+    by_path<[](const Context& c) { return std::min(c.point.path.ray_length, kFar); }>;
+// How far it is to what a lamp lights is known to its light paths, too.
+constexpr Operation kLengthOfLamp =
+    by_view<[](const Context& c) { return std::min(c.point.path.ray_length, kFar); }>;
+
 // There is a program for each type of ray, with the answers as constants.
 void emit_light_path(NodeEmitter& e) {
   for (const std::string_view output : kLightPath) {
@@ -119,13 +142,16 @@ void emit_light_path(NodeEmitter& e) {
       e.output(output, e.constant(*yes ? 1.0f : 0.0f));
     }
   }
-  if (e.seen().of == SeenTree::Of::World) {
-    e.output("Ray Length", e.constant(kFar));
-  } else if (e.seen().of == SeenTree::Of::Lamp) {
-    constexpr static Operation kLength =
-        by_view<[](const Context& c) { return std::min(c.point.ray_length, kFar); }>;
-    e.output("Ray Length", e.emit(kLength, {}));
-  }
+  const SeenTree::Of of = e.seen().of;
+  const bool world = of == SeenTree::Of::World;
+  e.output("Ray Depth", e.emit(kRayDepth[static_cast<int>(of)], {}));
+  e.output("Diffuse Depth", e.emit(world ? kLabelledOfWorld<0> : kLabelled<0>, {}));
+  e.output("Glossy Depth", e.emit(world ? kLabelledOfWorld<1> : kLabelled<1>, {}));
+  e.output("Transmission Depth", e.emit(world ? kLabelledOfWorld<2> : kLabelled<2>, {}));
+  e.output("Transparent Depth", e.emit(kCrossings, {}));
+  e.output("Portal Depth", e.constant(0.0f));  // no closure is a portal
+  e.output("Ray Length", world ? e.constant(kFar)
+                               : e.emit(of == SeenTree::Of::Lamp ? kLengthOfLamp : kRayLength, {}));
 }
 
 // --- Light Falloff -------------------------------------------------------------------------------
@@ -143,12 +169,9 @@ float falloff(float distance, int power, float strength, float smooth) {
   return smooth > 0.0f ? strength * (squared / (smooth + squared)) : strength;
 }
 template <int Power>
-constexpr Operation kFalloffOfLamp = by_view<[](const Context& c, float strength, float smooth) {
-  return falloff(c.point.ray_length, Power, strength, smooth);
-}>;
-template <int Power>
-constexpr Operation kFalloffAtOneMetre =
-    pure<[](float strength, float smooth) { return falloff(1.0f, Power, strength, smooth); }>;
+float falloff_there(const Context& c, float strength, float smooth) {
+  return falloff(c.point.path.ray_length, Power, strength, smooth);
+}
 
 void emit_falloff(NodeEmitter& e) {
   const Value strength = e.input("Strength"), smooth = e.input("Smooth");
@@ -158,18 +181,16 @@ void emit_falloff(NodeEmitter& e) {
     }
     return;
   }
-  const bool lamp = e.seen().of == SeenTree::Of::Lamp;
-  const auto emit = [&](const Operation& of_lamp, const Operation& at_one_metre) {
-    return e.emit(lamp ? of_lamp : at_one_metre, {strength, smooth});
+  const auto emit = [&](const Operation& of_lamp, const Operation& of_surface) {
+    const bool lamp = e.seen().of == SeenTree::Of::Lamp;
+    return e.emit(lamp ? of_lamp : of_surface, {strength, smooth});
   };
-  e.output("Quadratic", emit(kFalloffOfLamp<0>, kFalloffAtOneMetre<0>));
-  e.output("Linear", emit(kFalloffOfLamp<1>, kFalloffAtOneMetre<1>));
-  e.output("Constant", emit(kFalloffOfLamp<2>, kFalloffAtOneMetre<2>));
-  const bool exact = lamp || (e.is_constant(smooth, vec3(0.0f)) && !e.output_linked("Linear") &&
-                              !e.output_linked("Constant"));
-  if (!exact) {
-    e.warn("on surfaces the distance is not known yet; one metre is used");
-  }
+  // Light falls so without the node: no need to ask how far it has come.
+  e.output("Quadratic", e.is_constant(smooth, vec3(0.0f))
+                            ? strength
+                            : emit(by_view<&falloff_there<0>>, by_path<&falloff_there<0>>));
+  e.output("Linear", emit(by_view<&falloff_there<1>>, by_path<&falloff_there<1>>));
+  e.output("Constant", emit(by_view<&falloff_there<2>>, by_path<&falloff_there<2>>));
 }
 
 // --- Fresnel, Layer Weight -----------------------------------------------------------------------
