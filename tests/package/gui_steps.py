@@ -3,7 +3,8 @@
 
 Writes FOLDER/gui.json; test_gui.py takes the pictures and reads it.
 
-A step waits with `yield seconds`, and asks for a picture of the screen with `yield "name"`.
+A step waits with `yield seconds`, asks for a picture of the screen with `yield "name"`, and for a
+key to be pressed, by hand as it were, with `yield "key Escape"`.
 """
 
 import json
@@ -18,7 +19,7 @@ from mathutils import Quaternion
 
 folder, archive = map(Path, sys.argv[sys.argv.index("--") + 1 :])
 sys.path.insert(0, str(folder))
-request = folder / "shot.txt"
+request = folder / "request.txt"
 result: dict = {"events": [], "areas": {}}
 LIMIT = 60.0  # seconds that anything may take
 
@@ -70,7 +71,6 @@ def listen() -> None:
 
 
 def install():
-    bpy.context.preferences.view.show_splash = False
     bpy.ops.extensions.package_install_files(
         filepath=str(archive), repo="user_default", enable_on_install=True
     )
@@ -85,8 +85,8 @@ def build_scene():
     scene = bpy.context.scene
     scene.render.resolution_x = scene.render.resolution_y = 160
     scene.render.engine = "JANUS"
-    scene.janus.preview_samples = 16
-    window().screen.areas.update()
+    scene.render.preview_pixel_size = "4"  # there may be no graphics card
+    scene.janus.preview_samples = 64
     for area in areas("PROPERTIES"):
         area.spaces[0].context = "RENDER"
     yield 0.5
@@ -142,10 +142,9 @@ def render_and_escape():
     bpy.context.scene.janus.samples = 100000
     start_render()
     yield 4.0
-    renderer = bpy.context.window_manager.windows[-1]  # F12 opens a window for the picture
+    yield "f12_at_work"
     began = time.monotonic()
-    renderer.event_simulate(type="ESC", value="PRESS", x=50, y=50)
-    renderer.event_simulate(type="ESC", value="RELEASE", x=50, y=50)
+    yield "key Escape"  # a real one: Blender looks for it where events come in
     yield from until(lambda: heard("render_cancel"), "ESC did not end the render")
     result["escaped_after"] = time.monotonic() - began
 
@@ -172,9 +171,24 @@ def report_panel():
     from bl_ext.user_default.janus import report
 
     kept = report.kept(bpy.context.scene.name_full)
-    result["report"] = [[entry.material, entry.text] for entry, _ in kept]
+    result["report"] = [[entry.material, entry.message] for entry, _ in kept]
     yield "report"
     tree.nodes.remove(volume)
+
+
+def dual_photography():
+    """A lamp that can project has a panel for it."""
+    lamp = next(thing for thing in bpy.data.objects if thing.type == "LIGHT")
+    spread, lamp.data.spread = lamp.data.spread, 0.0
+    lamp.select_set(True)
+    bpy.context.view_layer.objects.active = lamp
+    yield 1.0  # the editor sees what is active when it is drawn
+    (area,) = areas("PROPERTIES")
+    area.spaces[0].context = "DATA"
+    yield 1.0
+    yield "dual_photography"
+    area.spaces[0].context = "RENDER"
+    lamp.data.spread = spread
 
 
 def second_viewport():
@@ -206,7 +220,7 @@ def load_while_rendering():
 
 STEPS = (
     *(install, build_scene, rendered_viewport, orbit, edit_and_undo, render_and_escape),
-    *(render_to_the_end, report_panel, second_viewport, load_while_rendering),
+    *(render_to_the_end, report_panel, dual_photography, second_viewport, load_while_rendering),
 )
 
 
@@ -221,7 +235,7 @@ _story = story()
 
 
 def go_on():
-    if request.exists():  # until the picture has been taken
+    if request.exists():  # until it has been granted
         return 0.1
     try:
         wanted = next(_story)
@@ -243,5 +257,6 @@ def go_on():
     return None
 
 
+bpy.context.preferences.view.show_splash = False
 listen()
 bpy.app.timers.register(go_on, first_interval=2.0, persistent=True)

@@ -17,8 +17,9 @@ from conftest import ROOT, Blender
 
 SHOTS = ROOT / "build/gui"
 WIDTH, HEIGHT = 1600, 900
+SQUARE = 24  # pixels
 LIMIT = 420.0  # seconds for the whole story, on a machine that is busy
-TOOLS = ("Xvfb", "xwd", "xwdtopnm", "pnmtopng", "pngtopnm")
+TOOLS = ("Xvfb", "xdotool", "xwd", "xwdtopnm", "pnmtopng", "pngtopnm")
 
 
 @pytest.fixture(scope="session")
@@ -45,13 +46,26 @@ def display():
     server.wait()
 
 
-def run(*command, given: bytes | None = None) -> bytes:
-    return subprocess.run(command, input=given, check=True, capture_output=True).stdout
+def run(*command, given: bytes | None = None, display: str = "") -> bytes:
+    environment = {**os.environ, "DISPLAY": display}
+    done = subprocess.run(command, input=given, check=True, capture_output=True, env=environment)
+    return done.stdout
 
 
-def take_picture(display: str, name: str) -> None:
-    screen = run("xwd", "-silent", "-display", display, "-root")
-    (SHOTS / f"{name}.png").write_bytes(run("pnmtopng", given=run("xwdtopnm", given=screen)))
+def grant(display: str, wish: str) -> None:
+    """A key to be pressed where the picture is, or a picture of the screen."""
+    if wish.startswith("key "):
+        run(
+            "xdotool",
+            "mousemove",
+            str(WIDTH // 3),
+            str(HEIGHT // 2),
+            *wish.split(),
+            display=display,
+        )
+        return
+    screen = run("xwd", "-silent", "-root", display=display)
+    (SHOTS / f"{wish}.png").write_bytes(run("pnmtopng", given=run("xwdtopnm", given=screen)))
 
 
 def pixels(path: Path) -> np.ndarray:
@@ -68,18 +82,18 @@ def story(blender: Blender, extension: Path, display: str) -> dict:
     SHOTS.mkdir(parents=True)
     blender.add(ROOT / "scenes")
     script, archive = blender.add(ROOT / "tests/package/gui_steps.py"), blender.add(extension)
-    request = blender.folder / "shot.txt"
+    request = blender.folder / "request.txt"
     with (SHOTS / "blender.log").open("w") as log:
         process = blender.start(
             *("--window-geometry", "0", "0", str(WIDTH), str(HEIGHT)),
-            *("--enable-event-simulate", "-P", script, "--", blender.inside("."), archive),
+            *("-P", script, "--", blender.inside("."), archive),
             environment=(f"DISPLAY={display}", "LIBGL_ALWAYS_SOFTWARE=1"),
             stdout=log,
         )
         end = time.monotonic() + LIMIT
         while process.poll() is None and time.monotonic() < end:
-            if request.exists() and (name := request.read_text()):
-                take_picture(display, name)
+            if request.exists() and (wish := request.read_text()):
+                grant(display, wish)
                 request.unlink()
             time.sleep(0.05)
         hung = process.poll() is None
@@ -96,10 +110,13 @@ def story(blender: Blender, extension: Path, display: str) -> dict:
 
 
 def seen(story: dict, name: str) -> np.ndarray:
-    """The middle of the viewport in a picture of the screen."""
+    """The middle of the viewport in a picture of the screen: means of squares, less noisy."""
     x, y, width, height = story["areas"][name]
     picture = pixels(SHOTS / f"{name}.png")
-    return picture[y + height // 4 : y + 3 * height // 4, x + width // 4 : x + 3 * width // 4]
+    middle = picture[y + height // 4 : y + 3 * height // 4, x + width // 4 : x + 3 * width // 4]
+    rows, columns = middle.shape[0] // SQUARE, middle.shape[1] // SQUARE
+    squares = middle[: rows * SQUARE, : columns * SQUARE].reshape(rows, SQUARE, columns, SQUARE, 3)
+    return squares.mean(axis=(1, 3))
 
 
 def test_the_story_ends_well(story: dict):
