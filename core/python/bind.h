@@ -41,8 +41,8 @@ inline void check_signals() {
 }
 
 // Calls wait(seconds), which tells whether what it waits for has come, without the GIL and in
-// slices short enough for Ctrl-C, until it has, or `seconds` have passed: true or false. Needs the
-// GIL.
+// slices short enough for Ctrl-C, until it has, or `seconds` have passed: true or false. No number
+// is no time. Needs the GIL.
 template <class Wait>
 bool wait_slices(Wait&& wait, double seconds) {
   constexpr double kSlice = 0.1;
@@ -50,7 +50,7 @@ bool wait_slices(Wait&& wait, double seconds) {
     bool ended;
     {
       const py::gil_scoped_release release;
-      ended = wait(std::clamp(seconds, 0.0, kSlice));
+      ended = wait(seconds > 0.0 ? std::min(seconds, kSlice) : 0.0);
     }
     check_signals();
     seconds -= kSlice;

@@ -19,6 +19,12 @@ inline std::string shape_of(const py::array& a) {
   return py::str(a.attr("shape")).cast<std::string>();
 }
 
+// As a C array of T. Raises what NumPy does where it cannot be made, such as MemoryError.
+template <class T>
+auto converted(const py::object& a) {
+  return py::array_t<T, py::array::c_style | py::array::forcecast>(a);
+}
+
 // Checks for [N, columns] (columns 0: [N]) and returns N.
 inline size_t rows(Key key, const char* path, const py::array& a, py::ssize_t columns) {
   const bool ok = columns ? a.ndim() == 2 && a.shape(1) == columns : a.ndim() == 1;
@@ -37,7 +43,7 @@ inline std::vector<vec3> to_vectors(Key key, const char* path, const py::array& 
     throw SceneError(key, path, "must hold numbers");
   }
   const size_t count = rows(key, path, a, 3);
-  const auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(a);
+  const auto values = converted<float>(a);
   const auto* first = reinterpret_cast<const vec3*>(values.data());
   return {first, first + count};
 }
@@ -54,7 +60,7 @@ inline std::vector<float> to_numbers(Key key, const char* path, const py::array&
 
 template <class T>
 void copy_indices(Key key, const char* path, const py::array& a, uint32_t* out) {
-  const auto values = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(a);
+  const auto values = converted<T>(a);
   for (py::ssize_t i = 0; i < values.size(); ++i) {
     const T value = values.data()[i];
     if (value < 0 || static_cast<uint64_t>(value) > UINT32_MAX) {

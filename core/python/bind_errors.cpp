@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
 #include "bind.h"
 #include "janus/util/error.h"
 
@@ -22,7 +26,10 @@ void bind_errors(py::module_& m) {
     try {
       std::rethrow_exception(thrown);
     } catch (const SceneError& e) {
-      const py::object instance = py::reinterpret_borrow<py::object>(scene_error)(e.what());
+      // As what(), which ends at the first 0 of a name.
+      const std::string where = e.key + (e.path.empty() ? "" : " (" + e.path + ")");
+      const py::object instance =
+          py::reinterpret_borrow<py::object>(scene_error)(where + ": " + e.message);
       instance.attr("key") = e.key;
       instance.attr("path") = e.path;
       instance.attr("message") = e.message;
@@ -33,6 +40,15 @@ void bind_errors(py::module_& m) {
       PyErr_SetString(cancelled.ptr(), e.what());
     } catch (const Error& e) {
       PyErr_SetString(error.ptr(), e.what());
+    } catch (const std::bad_alloc&) {
+      PyErr_SetString(PyExc_MemoryError,
+                      "the machine has not enough memory for this: render a simpler scene, fewer "
+                      "passes or less resolution");
+    } catch (const std::length_error&) {  // of a vector: more than any machine has
+      PyErr_SetString(PyExc_MemoryError, "no machine has enough memory for this");
+    } catch (const std::system_error& e) {
+      PyErr_SetString(error.ptr(),
+                      (std::string("no thread could be started: ") + e.what()).c_str());
     }
   });
 }

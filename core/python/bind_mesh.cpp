@@ -14,13 +14,20 @@ constexpr EnumName<AttributeDomain> kDomains[] = {{"MESH", AttributeDomain::Mesh
                                                   {"CORNER", AttributeDomain::Corner},
                                                   {"FACE", AttributeDomain::Face}};
 
+std::string to_text(Key key, const py::object& value) {
+  if (!py::isinstance<py::str>(value)) {
+    throw SceneError(key, "attributes", "key and domain must be strings");
+  }
+  return value.cast<std::string>();
+}
+
 // {"key", "domain", "values": float[N] or [N, C]}; or {"key"} alone, of what the core computes
 AttributeDesc to_attribute(Key key, const py::handle& item) {
   const auto dict =
       py::isinstance<py::dict>(item) ? py::reinterpret_borrow<py::dict>(item) : py::dict();
   AttributeDesc attribute;
   if (dict.contains("key")) {
-    attribute.key = dict["key"].cast<std::string>();
+    attribute.key = to_text(key, dict["key"]);
     if (is_derived(attribute) && !dict.contains("values")) {
       return attribute;
     }
@@ -28,7 +35,7 @@ AttributeDesc to_attribute(Key key, const py::handle& item) {
   if (!dict.contains("key") || !dict.contains("domain") || !dict.contains("values")) {
     throw SceneError(key, "attributes", "each must have key, domain and values");
   }
-  attribute.domain = from_name(kDomains, dict["domain"].cast<std::string>(), "domain");
+  attribute.domain = from_name(kDomains, to_text(key, dict["domain"]), "domain");
   const py::array a = to_array(dict["values"]);
   const std::string path = "attributes[" + attribute.key + "]";
   const auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(a);

@@ -81,7 +81,7 @@ void set_image(SceneBuilder& self, Key key, std::string name, const py::object& 
     throw SceneError(key, "pixels",
                      "the shape must be (height, width, 3 or 4), not " + shape_of(a));
   }
-  const auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(a);
+  const auto values = converted<float>(a);
   auto image = std::make_shared<Image>();
   image->height = static_cast<int>(a.shape(0));
   image->width = static_cast<int>(a.shape(1));

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "janus/geometry/mesh.h"
+#include "janus/geometry/reach.h"
 #include "janus/geometry/round_shape.h"
 #include "janus/util/error.h"
 
@@ -213,6 +214,7 @@ struct Accel::Impl {
   std::array<const View*, kRayTypes> view;                           // by type
   std::map<const Shape*, std::shared_ptr<const ShapeAccel>> bottom;  // of those that are needed
   std::vector<RTCScene> bottom_of;  // by Instance::shape; null: not needed
+  float farthest = kFarthest;       // that rays may be, so that they are not beyond in an instance
 
   ~Impl() {
     for_each_scene([](RTCScene scene) { rtcReleaseScene(scene); });
@@ -248,7 +250,7 @@ struct Accel::Impl {
   bool intersect(const std::vector<Placement>& placements, RTCScene scene, const Ray& ray,
                  SurfaceInteraction& hit) const {
     RTCRayHit query = to_embree(ray);
-    if (!trace(scene, query)) {
+    if (!traceable(ray, farthest) || !trace(scene, query)) {
       return false;
     }
     hit.instance = query.hit.instID[0];
@@ -264,7 +266,11 @@ struct Accel::Impl {
   }
 
   bool occluded(RTCScene scene, vec3 a, vec3 b) const {
-    RTCRay query = to_embree(Ray{a, b - a, kShadowReach}).ray;
+    const Ray ray{a, b - a, kShadowReach};
+    if (!traceable(ray, farthest)) [[unlikely]] {
+      return true;
+    }
+    RTCRay query = to_embree(ray).ray;
 #if RTC_VERSION_MAJOR >= 4
     rtcOccluded1(scene, &query, nullptr);
 #else
@@ -302,9 +308,11 @@ Accel::Accel(const ShapeList& shapes, const std::vector<Instance>& instances,
     const Instance& instance = instances[i];
     const std::shared_ptr<const Shape>& shape = shapes[instance.shape];
     placements_.emplace_back(*shape, instance);
-    if (shape->primitives() == 0) {
+    const float reach = reach_beside(instance.to_world);
+    if (shape->primitives() == 0 || !(reach > 0.0f)) {
       continue;
     }
+    impl_->farthest = std::min(impl_->farthest, reach);
     std::shared_ptr<const ShapeAccel>& bottom = impl_->bottom[shape.get()];
     if (!bottom && previous) {
       const auto known = previous->impl_->bottom.find(shape.get());
@@ -387,11 +395,12 @@ Accel::InstanceRays::InstanceRays(const Accel& accel, uint32_t instance)
 
 bool Accel::InstanceRays::intersect(const Ray& ray, SurfaceInteraction& hit) const {
   // Of a direction that is not unit, so that distances are those of the world.
-  RTCRayHit query = to_embree(
-      Ray{vec3(to_object_ * vec4(ray.origin, 1.0f)), mat3(to_object_) * ray.direction, ray.t_max});
+  const Ray local{vec3(to_object_ * vec4(ray.origin, 1.0f)), mat3(to_object_) * ray.direction,
+                  ray.t_max};
+  RTCRayHit query = to_embree(local);
   const Placement& placement = accel_.placements_[instance_];
   const RTCScene scene = accel_.impl_->bottom_of[accel_.instances_[instance_].shape];
-  if (!scene || placement.round() || !Impl::trace(scene, query)) {
+  if (!scene || placement.round() || !traceable(local, kFarthest) || !Impl::trace(scene, query)) {
     return false;
   }
   placement.surface_point(query.hit.primID, vec2(query.hit.u, query.hit.v), hit);

@@ -121,7 +121,6 @@ void RenderSession::start() {
   if (state_ != Progress::State::Waiting) {
     throw Error("the session was started before");
   }
-  state_ = Progress::State::Rendering;
   start_time_ = now();
   thread_ = std::thread([this] {
     try {
@@ -133,6 +132,7 @@ void RenderSession::start() {
       end(Progress::State::Failed, std::current_exception());
     }
   });
+  state_ = Progress::State::Rendering;  // now that there is a thread, which cannot end before
 }
 
 std::unique_ptr<Integrator> RenderSession::make_integrator(

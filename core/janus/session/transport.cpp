@@ -89,7 +89,6 @@ void TransportSession::start() {
   if (state_ != Progress::State::Waiting) {
     throw Error("the capture was started before");
   }
-  state_ = Progress::State::Rendering;
   thread_ = std::thread([this] {
     std::exception_ptr error;
     try {
@@ -105,6 +104,7 @@ void TransportSession::start() {
                                    : Progress::State::Done;
     ended_.notify_all();
   });
+  state_ = Progress::State::Rendering;  // now that there is a thread, which cannot end before
 }
 
 void TransportSession::run(RenderSession& session) {

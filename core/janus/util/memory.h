@@ -5,7 +5,7 @@
 
 namespace janus {
 
-// Of the machine, bytes; 0 where the system does not say.
+// Of the machine, or what this process may have of it, bytes; 0 where the system does not say.
 size_t physical_memory();
 
 }  // namespace janus

@@ -2,6 +2,7 @@
 #include "janus/util/parallel.h"
 
 #include <algorithm>
+#include <system_error>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -30,8 +31,12 @@ ThreadPool::ThreadPool(int threads) {
   const int hardware = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   size_ = threads > 0 ? threads : hardware;
   threads_.reserve(size_ - 1);
-  for (int i = 1; i < size_; ++i) {
-    threads_.emplace_back([this] { worker(); });
+  try {
+    for (int i = 1; i < size_; ++i) {
+      threads_.emplace_back([this] { worker(); });
+    }
+  } catch (const std::system_error&) {  // the system has no more of them: fewer do the same work
+    size_ = static_cast<int>(threads_.size()) + 1;
   }
 }
 
