@@ -57,6 +57,11 @@ def render(scene, **changes):
     return session
 
 
+def endless(scene):
+    settings = janus_core.RenderSettings(**{**SETTINGS, "samples": 1 << 30})
+    return janus_core.RenderSession(scene, settings)
+
+
 @pytest.fixture
 def builder():
     builder = janus_core.SceneBuilder()

@@ -9,7 +9,7 @@ import janus_core
 import numpy as np
 import pytest
 
-from .conftest import SETTINGS, render
+from .conftest import endless, render
 
 
 def test_settings_round_trip():
@@ -108,11 +108,6 @@ def test_snapshot_names(builder):
     a, b = session.snapshot(), session.snapshot("Combined")
     a[:] = 0.0
     assert b.max() > 0.0
-
-
-def endless(scene):
-    settings = janus_core.RenderSettings(**{**SETTINGS, "samples": 1 << 30})
-    return janus_core.RenderSession(scene, settings)
 
 
 def test_cancel_is_quick_and_keeps_passes(builder):

@@ -169,7 +169,7 @@ class Fuzzer:
         builder = janus_core.SceneBuilder()
         if self._nonsense.random.random() < 0.95:
             fill(builder)
-        for _ in range(self._nonsense.random.randint(1, 6)):
+        for _ in range(self._nonsense.random.randint(1, 4)):
             self._set(builder)
         scene = self._commit(builder)
         settings = self._settings()

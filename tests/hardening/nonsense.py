@@ -76,7 +76,7 @@ class Nonsense:
     def disturbed(self, good: dict) -> dict:
         """Good arguments, of which some are wrong, missing or too many."""
         result = dict(good)
-        for _ in range(self.random.choice((0, 1, 1, 1, 2, 4))):
+        for _ in range(self.random.choice((0, 0, 0, 1, 1, 1, 2, 4))):
             name = self.random.choice(list(good))
             result[name] = self.like(good[name]) if self.random.random() < 0.5 else self.value()
         if self.random.random() < 0.03 and result:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "janus/geometry/reach.h"
 #include "janus/render/scene.h"
 #include "janus/scene/panorama.h"
 #include "janus/util/error.h"
@@ -11,7 +12,8 @@ namespace janus {
 
 bool is_placement(const mat4& m) {
   const float determinant = glm::determinant(mat3(m));
-  return is_finite(m) && std::isfinite(determinant) && determinant != 0.0f;
+  return is_finite(m) && std::isfinite(determinant) && determinant != 0.0f &&
+         reach_beside(m) > 0.0f;
 }
 
 void check_camera(const CameraDesc& camera) {

@@ -5,7 +5,7 @@
 
 namespace janus {
 
-// Finite, and not flat?
+// Finite, and not so flat, small or far away that rays cannot be there?
 bool is_placement(const mat4& m);
 
 // Throws SceneError for a camera that sees nothing, or cannot be.
