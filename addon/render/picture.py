@@ -7,6 +7,8 @@ import os
 import bpy
 import numpy as np
 
+from .whole_file import whole_file
+
 SETTINGS = ("media_type", "file_format", "color_mode", "color_depth", "color_management")
 
 
@@ -28,13 +30,16 @@ def output_settings(scene, **values):
 
 def save_result(scene, path: str) -> None:
     """The whole render result, all layers and passes: an OpenEXR file of linear 32-bit floats."""
-    with output_settings(
-        scene,
-        media_type="MULTI_LAYER_IMAGE",
-        file_format="OPEN_EXR_MULTILAYER",
-        color_depth="32",
+    with (
+        output_settings(
+            scene,
+            media_type="MULTI_LAYER_IMAGE",
+            file_format="OPEN_EXR_MULTILAYER",
+            color_depth="32",
+        ),
+        whole_file(path) as file,
     ):
-        bpy.data.images["Render Result"].save_render(path, scene=scene)
+        bpy.data.images["Render Result"].save_render(file, scene=scene)
 
 
 def save_display(scene, path: str, pixels: np.ndarray) -> None:
@@ -49,14 +54,15 @@ def save_display(scene, path: str, pixels: np.ndarray) -> None:
             color_depth="8",
             color_management="FOLLOW_SCENE",
         ),
+        whole_file(path) as file,
     ):
-        image.save_render(path, scene=scene)
+        image.save_render(file, scene=scene)
 
 
 def save_bytes(path: str, pixels: np.ndarray) -> None:
     """float32[H, W, 3], display values from 0 to 1, bottom row first: a PNG as they are."""
-    with _image(pixels, float_buffer=False) as image:
-        image.filepath_raw = path
+    with _image(pixels, float_buffer=False) as image, whole_file(path) as file:
+        image.filepath_raw = file
         image.file_format = "PNG"
         image.save()
 

@@ -63,6 +63,14 @@ class Addon:
                 self.package.unregister()
 
 
+def alone(path: str) -> ModuleType:
+    """A file of the add-on's source that knows nothing of the rest, whatever the engine is."""
+    spec = importlib.util.spec_from_file_location(f"{SOURCE_PACKAGE}_alone", ROOT / "addon" / path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
 class _Stoppable:
     """An engine with a test_break() that also asks somebody else."""
 

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import bpy
 
+from scenes.driver.addon import alone
+
 
 def save(scene: bpy.types.Scene, path: Path) -> None:
     """PNG: 8 bits, through the scene's view transform. EXR: 32-bit float, scene linear."""
@@ -25,4 +27,5 @@ def save(scene: bpy.types.Scene, path: Path) -> None:
         settings.color_mode = "RGBA" if scene.render.film_transparent else "RGB"
         settings.color_depth = "8"
     result = bpy.data.images["Render Result"]
-    result.save_render(str(path), scene=scene)
+    with alone("render/whole_file.py").whole_file(str(path)) as file:
+        result.save_render(file, scene=scene)

@@ -82,12 +82,11 @@ def _render(scene: bpy.types.Scene, options: argparse.Namespace, addon) -> int:
     for line in stats["diagnostics"]:
         if not line.startswith("info") and not (failure and failure in line):
             print(f"  {line}", file=sys.stderr)
-    if options.stats:
-        options.stats.parent.mkdir(parents=True, exist_ok=True)
-        options.stats.write_text(json.dumps(stats, indent=2) + "\n", encoding="utf-8")
+    interrupted = interrupted or stats.get("cancelled")
+    if failure or (not stats["samples"] and interrupted):
+        _write_stats(options, stats)
     if failure:
         raise Problem(failure)
-    interrupted = interrupted or stats.get("cancelled")
     if not stats["samples"] and interrupted:
         print("stopped before there was a picture", file=sys.stderr)
         return INTERRUPTED
@@ -97,6 +96,7 @@ def _render(scene: bpy.types.Scene, options: argparse.Namespace, addon) -> int:
             more = passes.save(scene, options, addon) if addon else []
         except (RuntimeError, OSError) as error:
             raise Problem(f"cannot write {options.output}: {one_line(error)}") from error
+    _write_stats(options, stats)  # what is lost if this fails is not the picture
     print(
         f"{options.output}  ({stats['samples']} samples in {stats['seconds']:.1f} s, "
         f"set-up {stats['setup_seconds']:.1f} s)"
@@ -104,6 +104,16 @@ def _render(scene: bpy.types.Scene, options: argparse.Namespace, addon) -> int:
     for path in more:
         print(path)
     return INTERRUPTED if interrupted else OK
+
+
+def _write_stats(options: argparse.Namespace, stats: dict) -> None:
+    if not options.stats:
+        return
+    try:
+        options.stats.parent.mkdir(parents=True, exist_ok=True)
+        options.stats.write_text(json.dumps(stats, indent=2) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise Problem(f"cannot write {options.stats}: {error.strerror}") from error
 
 
 class _Watch:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What may crash or hang runs in a process of its own, so that it is seen and ends no other test."""
+"""What may crash or hang runs in a process of its own: it is seen, and ends no other test."""
 
 import os
 import subprocess
@@ -8,6 +8,7 @@ from pathlib import Path
 
 FULL = "JANUS_FULL" in os.environ
 FOLDER = Path(__file__).parent
+sys.path.insert(0, str(FOLDER.parents[1]))  # for the scene of tests/bindings
 
 
 def apart(script: str, *arguments, timeout: float) -> str:

@@ -310,7 +310,9 @@ class FileFuzzer(Fuzzer):
         folder = log.parent
         builder.save(folder / "scene.npz", settings)
         matrix.save(folder / "matrix.npz")
-        exr.write_layers(folder / "picture.exr", {"Combined": np.ones((9, 7, 4)), "Z": np.ones((9, 7, 1))})
+        exr.write_layers(
+            folder / "picture.exr", {"Combined": np.ones((9, 7, 4)), "Z": np.ones((9, 7, 1))}
+        )
         self._good = {
             name: ((folder / name).read_bytes(), load)
             for name, load in (

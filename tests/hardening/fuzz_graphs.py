@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`fuzz_graphs.py FIRST COUNT FOLDER`: node graphs that no editor would make, one for each seed.
 
-Any nodes with any properties, links in circles, to nothing and of wrong types, thousands of nodes in
-a row or side by side, numbers that are none. Each is rendered as a surface, a world or a lamp. A
-process of its own, as a crash is what is looked for; the seed is in FOLDER/calls.txt.
+Any nodes with any properties, links in circles, to nothing and of wrong types, thousands of nodes
+in a row or side by side, numbers that are none. Each is rendered as a surface, a world or a lamp.
+A process of its own, as a crash is what is looked for; the seed is in FOLDER/calls.txt.
 """
 
 from __future__ import annotations
@@ -21,9 +21,19 @@ from tests.hardening.nonsense import NUMBERS, Nonsense  # noqa: E402
 
 MEMORY = 6 << 30
 TYPES = {node["type"]: node for node in janus_core.node_types()}
-SHADERS = [name for name, node in TYPES.items() if {"BSDF", "BSSRDF", "Shader"} & {*node["outputs"]}]
+SHADERS = [
+    name for name, node in TYPES.items() if {"BSDF", "BSSRDF", "Shader"} & {*node["outputs"]}
+]
 PROPERTIES = (
-    *("clamp", "clamp_factor", "clamp_result", "from_instancer", "invert", "normalize", "use_clamp"),
+    *(
+        "clamp",
+        "clamp_factor",
+        "clamp_result",
+        "from_instancer",
+        "invert",
+        "normalize",
+        "use_clamp",
+    ),
     *("old_points", "sun_disc", "use_pixel_size", "direction", "ies", "object_matrix", "range"),
     *("sun_direction", "table", "tiles", "value", "air_density", "altitude", "filter_width"),
     *("ground_albedo", "offset", "offset_frequency", "ozone_density", "projection_blend"),
@@ -43,10 +53,25 @@ WORDS = (
     *("1D", "2D", "3D", "4D", "F1", "F2", "SMOOTH_F1", "DISTANCE_TO_EDGE", "N_SPHERE_RADIUS"),
     *("MINKOWSKI", "FBM", "RIDGED_MULTIFRACTAL", "HETERO_TERRAIN", "HYBRID_MULTIFRACTAL", "TUBE"),
     *("PREETHAM", "HOSEK_WILKIE", "NISHITA", "MULTIPLE_SCATTERING", "GGX", "MULTI_GGX", "BECKMANN"),
-    *("ASHIKHMIN_SHIRLEY", "F82", "PHYSICAL_CONDUCTOR", "RANDOM_WALK", "RANDOM_WALK_SKIN", "BURLEY"),
+    *(
+        "ASHIKHMIN_SHIRLEY",
+        "F82",
+        "PHYSICAL_CONDUCTOR",
+        "RANDOM_WALK",
+        "RANDOM_WALK_SKIN",
+        "BURLEY",
+    ),
     *("OBJECT", "WORLD", "CAMERA", "BLENDER_OBJECT", "sky", "no image", "REPEAT", "CLIP", "MIRROR"),
     *("Cubic", "UV", "SPHERE", "EULER_XYZ", "AXIS_ANGLE", "FRESNEL", "CHIANG", "HUANG", "MELANIN"),
-    *("ABSORPTION", "COLOR", "Reflection", "Transmission", "Transmittance", "GEOMETRY", "INSTANCER"),
+    *(
+        "ABSORPTION",
+        "COLOR",
+        "Reflection",
+        "Transmission",
+        "Transmittance",
+        "GEOMETRY",
+        "INSTANCER",
+    ),
 )
 TABLE_LENGTHS = (0, 1, 2, 3, 4, 5, 8, 16, 255, 256, 257, 1024, 1028)
 DEEP = 20_000
@@ -88,7 +113,8 @@ class Maker:
         if self._random.random() < 0.05:
             inputs["No such input"] = self._input(number)
         properties = {
-            self._random.choice(PROPERTIES): self._property() for _ in range(self._random.randint(0, 12))
+            self._random.choice(PROPERTIES): self._property()
+            for _ in range(self._random.randint(0, 12))
         }
         # Names that are not unique, now and then.
         name = f"n{self._random.randrange(number + 1) if self._random.random() < 0.02 else number}"
@@ -115,7 +141,17 @@ class Maker:
 
     def _output(self, kind: str | None) -> str:
         outputs = TYPES[kind]["outputs"] if kind in TYPES else ()
-        common = ("BSDF", "Color", "Value", "Vector", "Fac", "Emission", "Shader", "Result", "Normal")
+        common = (
+            "BSDF",
+            "Color",
+            "Value",
+            "Vector",
+            "Fac",
+            "Emission",
+            "Shader",
+            "Result",
+            "Normal",
+        )
         return self._random.choice(outputs or common)
 
     def _float(self) -> float:

@@ -40,9 +40,7 @@ def furnished():
     triangles = np.arange(60_000).reshape(-1, 3)
     positions = corners.reshape(-1, 3).astype(np.float32)
     builder.set_mesh("dust", name="Dust", positions=positions, triangles=triangles)
-    builder.set_instance(
-        "dust", name="Dust", mesh="dust", transform=IDENTITY, materials=["glass"]
-    )
+    builder.set_instance("dust", name="Dust", mesh="dust", transform=IDENTITY, materials=["glass"])
     spot = {"name": "Spot", "type": "SPOT", "transform": translation(0, 0, 3)}
     builder.set_light("spot", **spot, spot_size=1.0)
     return builder

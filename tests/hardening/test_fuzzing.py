@@ -7,8 +7,8 @@ import pytest
 
 from .conftest import FULL, apart
 
-CALLS = 6000 if FULL else 200
-GRAPHS = 20_000 if FULL else 200
+CALLS = 6000 if FULL else 100
+GRAPHS = 20_000 if FULL else 100
 # New seeds each day in full runs; failures name theirs.
 FIRST = int(time.time()) // 86400 % 10_000 * 100_000 if FULL else 0
 

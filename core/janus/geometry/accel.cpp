@@ -1,89 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "janus/geometry/accel.h"
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cstdlib>
+#include <cstddef>
 #include <map>
-#include <mutex>
-#include <utility>
+#include <memory>
 
+#include "janus/geometry/embree_device.h"
 #include "janus/geometry/mesh.h"
 #include "janus/geometry/reach.h"
 #include "janus/geometry/round_shape.h"
-#include "janus/util/error.h"
 
 namespace janus {
 
 namespace {
-
-bool on_progress(void* cancel, double /*fraction*/) {
-  return !static_cast<const CancelToken*>(cancel)->cancelled();
-}
-
-// Embree itself, for all hierarchies that share some.
-class Device {
- public:
-  Device() : handle_(rtcNewDevice(std::getenv("JANUS_EMBREE_CONFIG"))) {
-    // The setting lets a thread sanitizer run keep Embree's own threads out of the picture.
-    if (!handle_) {
-      throw Error("Embree could not be started (error " +
-                  std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
-    }
-    rtcSetDeviceErrorFunction(handle_, on_error, this);
-    rtcSetDeviceMemoryMonitorFunction(handle_, on_memory, &bytes_);
-  }
-  ~Device() { rtcReleaseDevice(handle_); }
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
-
-  RTCDevice handle() const { return handle_; }
-  size_t bytes() const { return static_cast<size_t>(bytes_.load()); }
-
-  RTCScene new_scene() const {
-    RTCScene scene = rtcNewScene(handle_);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    return scene;
-  }
-
-  // Throws Cancelled, or Error.
-  void commit(RTCScene scene, const CancelToken& cancel) {
-    rtcSetSceneProgressMonitorFunction(scene, on_progress, const_cast<CancelToken*>(&cancel));
-    rtcCommitScene(scene);
-    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
-    cancel.throw_if_cancelled();
-    const std::lock_guard lock(mutex_);
-    if (!error_.empty()) {
-      throw Error("building the ray acceleration structure failed: " + std::exchange(error_, {}));
-    }
-  }
-
- private:
-  // Embree reports errors to a callback; the first one is kept until a build ends.
-  static void on_error(void* user, RTCError code, const char* message) {
-    auto* device = static_cast<Device*>(user);
-    const std::lock_guard lock(device->mutex_);
-    if (code != RTC_ERROR_CANCELLED && device->error_.empty()) {
-      device->error_ = message ? message : "unknown error";
-    }
-  }
-  static bool on_memory(void* user, ssize_t bytes, bool /*after*/) {
-    static_cast<std::atomic<ssize_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
-    return true;
-  }
-
-  RTCDevice handle_;
-  std::mutex mutex_;
-  std::string error_;
-  std::atomic<ssize_t> bytes_{0};
-};
 
 // Refuses hits of what is round from within.
 void refuse_inside(const RTCFilterFunctionNArguments* args) {
@@ -216,7 +147,11 @@ struct Accel::Impl {
   std::vector<RTCScene> bottom_of;  // by Instance::shape; null: not needed
   float farthest = kFarthest;       // that rays may be, so that they are not beyond in an instance
 
+  // Held for the end, as scenes need some memory to be released.
+  std::unique_ptr<std::byte[]> reserve = std::make_unique_for_overwrite<std::byte[]>(kToEnd);
+
   ~Impl() {
+    reserve.reset();
     for_each_scene([](RTCScene scene) { rtcReleaseScene(scene); });
   }
 
@@ -295,6 +230,8 @@ Accel::Accel(const ShapeList& shapes, const std::vector<Instance>& instances,
     }
   };
   start(impl_->everything);
+  // Empty, so that from here on this thread has what it takes to release one that fails.
+  impl_->device->commit(impl_->everything.all, cancel);
   const auto first = first_alike(instances);
   for (int type = 0; type < kRayTypes; ++type) {
     impl_->view[type] = first[type] == kRayTypes ? &impl_->everything : &impl_->own[first[type]];

@@ -3,10 +3,12 @@
 
 #include <chrono>
 
+#include "janus/util/parallel.h"
+
 namespace janus {
 
 CommitTask::CommitTask(SceneBuilder builder) : builder_(std::move(builder)) {
-  thread_ = std::thread([this] {
+  thread_ = start_thread([this] {
     std::shared_ptr<const Scene> scene;
     std::exception_ptr error;
     try {

@@ -7,6 +7,7 @@
 #include "janus/session/footage.h"
 #include "janus/util/error.h"
 #include "janus/util/memory.h"
+#include "janus/util/parallel.h"
 
 namespace janus {
 
@@ -122,7 +123,7 @@ void RenderSession::start() {
     throw Error("the session was started before");
   }
   start_time_ = now();
-  thread_ = std::thread([this] {
+  thread_ = start_thread([this] {
     try {
       run();
       end(cancel_.cancelled() ? Progress::State::Cancelled : Progress::State::Done, nullptr);

@@ -5,6 +5,7 @@
 
 #include "janus/util/error.h"
 #include "janus/util/memory.h"
+#include "janus/util/parallel.h"
 
 namespace janus {
 
@@ -89,7 +90,7 @@ void TransportSession::start() {
   if (state_ != Progress::State::Waiting) {
     throw Error("the capture was started before");
   }
-  thread_ = std::thread([this] {
+  thread_ = start_thread([this] {
     std::exception_ptr error;
     try {
       run();

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <new>
 
 namespace janus {
 
@@ -41,6 +42,18 @@ size_t physical_memory() {
 #else
   return 0;
 #endif
+}
+
+bool has_memory(size_t bytes) {
+  void* probe = ::operator new(bytes, std::nothrow);
+  ::operator delete(probe);
+  return probe != nullptr;
+}
+
+void require_memory(size_t bytes) {
+  if (!has_memory(bytes)) {
+    throw std::bad_alloc();
+  }
 }
 
 }  // namespace janus

@@ -2,7 +2,10 @@
 #include "janus/util/parallel.h"
 
 #include <algorithm>
-#include <system_error>
+#include <exception>
+#include <utility>
+
+#include "janus/util/memory.h"
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -27,15 +30,27 @@ class FlushDenormals {
 
 }  // namespace
 
+std::thread start_thread(std::function<void()> body) {
+  // Where the C library has no memory for a thread's own data, when it is first asked for, it ends
+  // the process. The data of this library are asked for at once.
+  constexpr size_t kRoom = size_t{64} << 20;
+  require_memory(kRoom);
+  return std::thread([body = std::move(body)] {
+    if (std::uncaught_exceptions() == 0) {
+      body();
+    }
+  });
+}
+
 ThreadPool::ThreadPool(int threads) {
   const int hardware = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   size_ = threads > 0 ? threads : hardware;
   threads_.reserve(size_ - 1);
   try {
     for (int i = 1; i < size_; ++i) {
-      threads_.emplace_back([this] { worker(); });
+      threads_.push_back(start_thread([this] { worker(); }));
     }
-  } catch (const std::system_error&) {  // the system has no more of them: fewer do the same work
+  } catch (const std::exception&) {  // the system has no more of them: fewer do the same work
     size_ = static_cast<int>(threads_.size()) + 1;
   }
 }

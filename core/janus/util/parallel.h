@@ -14,6 +14,10 @@
 
 namespace janus {
 
+// A thread that calls `body`, which throws nothing. Throws std::bad_alloc or std::system_error if
+// there is no room for it.
+std::thread start_thread(std::function<void()> body);
+
 class ThreadPool {
  public:
   // `threads` workers; 0 means one per hardware thread. With 1 the caller does all the work.

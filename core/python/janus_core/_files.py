@@ -44,6 +44,19 @@ def write(
         raise IoError(f"cannot write {os.fspath(path)}: {_reason(error)}") from error
 
 
+def write_text(path: str | os.PathLike[str], text: str) -> None:
+    """Writes a text file, or to what is no regular file, such as /dev/stdout.
+
+    The file appears when it is complete. Raises IoError, which names it.
+    """
+    try:
+        special = os.path.exists(path) and not os.path.isfile(path)
+        with open(path, "wb") if special else _replacing(path) as file:
+            file.write(text.encode())
+    except OSError as error:
+        raise IoError(f"cannot write {os.fspath(path)}: {_reason(error)}") from error
+
+
 @contextlib.contextmanager
 def reading(
     name: str, kind: str, member: str, file_format: str

@@ -30,6 +30,7 @@ from . import (
     check_expression,
     exr,
 )
+from ._files import write_text
 from ._progress import ProgressBar
 
 OK, FAILED, USAGE, SCENE, INTERRUPTED = 0, 1, 2, 3, 130
@@ -60,8 +61,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail(FAILED, str(error))
     except OSError as error:
         return _fail(FAILED, f"{error.filename}: {error.strerror}" if error.filename else error)
-    except MemoryError:
-        return _fail(FAILED, "out of memory")
+    except MemoryError as error:
+        return _fail(FAILED, f"out of memory: {error}" if str(error) else "out of memory")
 
 
 class _UsageError(Exception):
@@ -154,7 +155,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _render(
     session: RenderSession, settings: RenderSettings, quiet: bool, stop: Callable[[], bool]
-) -> Error | None:
+) -> Error | MemoryError | None:
     """Renders to the end, or until `stop`. What ended it too early; its whole passes are kept."""
     bar = None if quiet else ProgressBar(sys.stderr, settings.seconds)
     session.start()
@@ -167,7 +168,7 @@ def _render(
         bar.close()
     try:
         session.finish()
-    except Error as error:
+    except (Error, MemoryError) as error:
         return error
     return None
 
@@ -188,9 +189,7 @@ def _write(
     layers = {name: session.snapshot(name) for name in session.passes()}
     exr.write_layers(options.output, layers, stamp)
     if options.stats:
-        with open(options.stats, "w", encoding="utf-8") as file:
-            json.dump(stats, file, indent=2)
-            file.write("\n")
+        write_text(options.stats, json.dumps(stats, indent=2) + "\n")
     if not options.quiet:
         setup = stats["load_seconds"] + stats["commit_seconds"]
         print(

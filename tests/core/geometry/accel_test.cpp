@@ -89,6 +89,23 @@ TEST(Accel, FindsWhatBruteForceFinds) {
   EXPECT_GT(misses, 300);
 }
 
+TEST(Accel, RaysThatAreNoneMeetNothing) {
+  const auto scene = soup();
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  SurfaceInteraction hit;
+  for (const float wrong : {kNone, std::numeric_limits<float>::infinity(), -3e38f, 2e18f}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      vec3 place(0.0f), direction(0.0f, 0.0f, 1.0f);
+      place[axis] = wrong;
+      EXPECT_FALSE(scene->accel->intersect_any({place, vec3(0, 0, 1), INFINITY}, hit));
+      EXPECT_TRUE(scene->accel->occluded(place, vec3(0.0f), RayType::Shadow));
+      direction[axis] = wrong;
+      EXPECT_FALSE(scene->accel->intersect_any({vec3(0.0f), direction, INFINITY}, hit));
+    }
+  }
+  EXPECT_FALSE(scene->accel->intersect_any({vec3(0.0f), vec3(0, 0, 1), kNone}, hit));
+}
+
 TEST(Accel, NormalsPointOutwardsUnderAnyTransform) {
   Random random(17);
   for (const mat4& m : {mat4(1), scaling({-1, 1, 1}), scaling({-2, -0.3f, -1}),
