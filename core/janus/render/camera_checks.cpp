@@ -13,7 +13,7 @@ namespace janus {
 bool is_placement(const mat4& m) {
   const float determinant = glm::determinant(mat3(m));
   return is_finite(m) && std::isfinite(determinant) && determinant != 0.0f &&
-         reach_beside(m) > 0.0f;
+         enlargement(m) <= kMostLarger;
 }
 
 void check_camera(const CameraDesc& camera) {

@@ -5,7 +5,7 @@
 
 namespace janus {
 
-// Finite, and not so flat, small or far away that rays cannot be there?
+// Finite, and not so flat or small that no ray meets it?
 bool is_placement(const mat4& m);
 
 // Throws SceneError for a camera that sees nothing, or cannot be.
