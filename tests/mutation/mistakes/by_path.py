@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from mistake import one
 
-from mistakes.sources import CONNECT, ORACLE
+from mistakes.sources import CONNECT, ORACLE, SUBPATH
 
 TECHNIQUES = ORACLE + ":*ByPath*"
 
@@ -18,6 +18,15 @@ BY_PATH = (
         CONNECT,
         "joined->by_path ? kNothing : c.mis",
         "c.mis",
+    ),
+    one(
+        "walks-back-over-crossings",
+        0,
+        "a hit weighs light walks that would have come over what depends on the path",
+        TECHNIQUES,
+        SUBPATH,
+        "v.mis.b = {};  // or goes",
+        "// or goes",
     ),
     one(
         "labels-that-lights-count",
