@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from mistake import one
 
-from mistakes.sources import BSDF, CONNECT, FLIGHT, FLIGHT_APART, SUBPATH
+from mistakes.sources import BSDF, CONNECT, FLIGHT, FLIGHT_APART, PROGRAM, SUBPATH
 
 MESH_LIGHT = "core/janus/light/mesh_light.cpp"
 TESTS = "*ShaderAgreement*:*Reshadings*"
@@ -110,6 +110,15 @@ VIEWS = (
         SUBPATH,
         "light.tint(*endpoint, ",
         "light.tint(emission->origin, ",
+    ),
+    one(
+        "kept-for-the-other-side",
+        0,
+        "what a surface keeps for other views is used for those of its other side, too",
+        "RunAgain.*",
+        PROGRAM,
+        "reshading.program->kept_count > 0 && dot(view, point.ng) * dot(seen, point.ng) > 0.0f",
+        "reshading.program->kept_count > 0",
     ),
     one(
         "all-lies-at-one-metre",
