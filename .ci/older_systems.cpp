@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 #include <pthread.h>
 #include <sys/random.h>
+#include <sys/stat.h>
 #include <time.h>
 
 #include <cstdint>
@@ -50,12 +51,18 @@ JANUS_OLD(pow, "GLIBC_2.2.5");
 JANUS_OLD(hypot, "GLIBC_2.2.5");
 JANUS_OLD(hypotf, "GLIBC_2.2.5");
 
+__asm__(".symver old___fxstat64, __fxstat64@GLIBC_2.2.5");
+
 // --- New functions --------------------------------------------------------------------------------
 
 extern "C" {
 
 // "May be more than one": counters are then changed by atomic operations, always.
 char janus___libc_single_threaded = 0;
+
+// A macro around the old function before glibc 2.33.
+int old___fxstat64(int version, int file, struct stat64* status);
+int janus_fstat64(int file, struct stat64* status) { return old___fxstat64(1, file, status); }
 
 std::uint32_t janus_arc4random() {
   std::uint32_t number = 0;

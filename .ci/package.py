@@ -128,6 +128,9 @@ def bundle_libraries(tree: Path) -> None:
     files = [*modules, *private.values()]
     names = {name for file in files for _, name, _ in symbols(file) if FOREIGN.search(name)}
     replaced = {name for file in files for _, name, version in symbols(file) if too_new(version)}
+    lacking = replaced - {name.removeprefix(PREFIX) for _, name, _ in symbols(older)}
+    if lacking:
+        fail(f"older_systems.cpp has nothing for {', '.join(sorted(lacking))}")
     renames = WORK / "renames.txt"
     renames.write_text("".join(f"{name} {PREFIX}{name}\n" for name in sorted(names | replaced)))
     for file in files:
