@@ -84,9 +84,9 @@ class Maker:
 
     def graph(self) -> dict:
         shape = self._random.random()
-        if shape < 0.02:
+        if shape < 0.06:
             nodes = self._row()
-        elif shape < 0.04:
+        elif shape < 0.08:
             nodes = self._side_by_side()
         else:
             nodes = [self._node(i) for i in range(self._random.randint(1, 25))]
@@ -171,7 +171,7 @@ class Maker:
         return [self._float() for _ in range(length)]
 
     def _row(self) -> list[dict]:
-        """Each node's value is the next one's: deeper than any stack, if one recurses."""
+        """Each node's value is the next one's, some the first one's, too: deeper than any stack."""
         kind, output, sockets = self._random.choice(
             (
                 ("MATH", "Value", ("Value",)),
@@ -187,7 +187,10 @@ class Maker:
             link = {"link": [f"n{i - 1}", output if i > 1 else first]}
             inputs = {name: link for name in sockets}
             nodes.append({"name": f"n{i}", "type": kind, "inputs": inputs})
-        if "SHADER" not in kind:
+        if "SHADER" in kind and self._random.random() < 0.5:
+            link = {"link": [f"n{length - 1}", output]}
+            nodes[0] = {"name": "n0", "type": kind, "inputs": dict.fromkeys(sockets, link)}
+        elif "SHADER" not in kind:
             socket = "Normal" if kind == "BUMP" else "Roughness"
             link = {"link": [f"n{length - 1}", output]}
             nodes.append({"name": "end", "type": "BSDF_GLOSSY", "inputs": {socket: link}})
