@@ -26,12 +26,6 @@ const char* name_of(SocketType type) {
   return "CLOSURE";
 }
 
-bool leaves_out(const NodeDecl& decl, std::string_view input) {
-  return decl.closure && std::ranges::any_of(decl.closure->left_out, [&](const LeftOut& left_out) {
-           return left_out.input == input;
-         });
-}
-
 py::list names(std::span<const std::string_view> items) {
   py::list result;
   for (const std::string_view item : items) {
@@ -49,7 +43,6 @@ py::list node_type_list() {
       input["identifier"] = std::string(socket.identifier);
       input["type"] = name_of(socket.type);
       input["default"] = py::make_tuple(socket.value.x, socket.value.y, socket.value.z);
-      input["left_out"] = leaves_out(decl, socket.identifier);
       inputs.append(input);
     }
     py::dict node;

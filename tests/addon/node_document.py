@@ -129,10 +129,8 @@ def _status(kind: str, core: dict | None) -> tuple[str, list[str]]:
         return "refused", [node_coverage.REFUSED[kind]]
     if core is None:
         return "partly" if remarks else "exact", remarks
-    left_out = [socket["identifier"] for socket in core["inputs"] if socket["left_out"]]
     named = [item for _, items in core["settings"].values() for item in items]
-    notes = [f"without {', '.join(left_out)}"] if left_out else []
-    notes += [f"{INSTEAD[item]} for {item}" for item in named]
+    notes = [f"{INSTEAD[item]} for {item}" for item in named]
     return "partly" if notes or remarks else "exact", notes + remarks
 
 

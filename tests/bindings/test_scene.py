@@ -337,10 +337,8 @@ def test_node_types_are_listed():
     types = {node["type"]: node for node in janus_core.node_types()}
     assert {"BSDF_DIFFUSE", "BSDF_GLASS", "BSDF_GLOSSY", "EMISSION", "MIX_SHADER"} <= set(types)
     inputs = {i["identifier"]: i for i in types["BSDF_GLASS"]["inputs"]}
-    ior = {"identifier": "IOR", "type": "FLOAT", "default": (1.5, 1.5, 1.5), "left_out": False}
+    ior = {"identifier": "IOR", "type": "FLOAT", "default": (1.5, 1.5, 1.5)}
     assert inputs["IOR"] == ior
-    principled = {i["identifier"]: i for i in types["BSDF_PRINCIPLED"]["inputs"]}
-    assert principled["Thin Wall"]["left_out"] is True
     assert types["BSDF_GLASS"]["outputs"] == ["BSDF"]
     assert types["CLAMP"]["settings"] == {"clamp_type": (["MINMAX", "RANGE"], [])}
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of the same scenes by Cycles, and captures of them for Janus.
 
-`python both.py MODULE FOLDER [CASE...]` writes FOLDER/CASE.npz (a capture) and FOLDER/CASE-N.exr
+`python both.py MODULE FOLDER [CASE...]`, or `blender -b -P both.py -- MODULE ...`, writes FOLDER/CASE.npz (a capture) and FOLDER/CASE-N.exr
 (Cycles, with seed N, 1 to SEEDS) for each of the module's CASES. One process makes them all, since
 starting Blender takes longer than such a picture. A module of cases has
 
@@ -34,7 +34,8 @@ def main(cases: ModuleType, folder: Path, names: list[str]) -> int:
     addon = addons.load()
     warned = False
     for name in names:
-        bpy.ops.wm.read_factory_settings(use_empty=True)
+        # The preferences stay, and with them, in a real Blender, the extension.
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         scene = cases.build(name)
         scene.render.threads_mode, scene.render.threads = "FIXED", 2
         scene.render.engine = "CYCLES"
@@ -60,13 +61,16 @@ def main(cases: ModuleType, folder: Path, names: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.path[0] = str(ROOT)  # in the place of this folder
+    if sys.path[0] == str(Path(__file__).parent):
+        del sys.path[0]
+    sys.path.insert(0, str(ROOT))
     from scenes.driver import run
 
     code = 1
     try:
-        chosen = importlib.import_module(f"tests.images.{sys.argv[1]}")
-        code = main(chosen, Path(sys.argv[2]), sys.argv[3:] or list(chosen.CASES))
+        given = sys.argv[sys.argv.index("--") if "--" in sys.argv else 0 :]
+        chosen = importlib.import_module(f"tests.images.{given[1]}")
+        code = main(chosen, Path(given[2]), given[3:] or list(chosen.CASES))
     except BaseException as error:
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
     run.leave(code)

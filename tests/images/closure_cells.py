@@ -255,6 +255,7 @@ def mixed_cells() -> None:
 def add_cells() -> None:
     from .closure_cells_layers import add_layers
     from .closure_cells_subsurface import add_subsurface
+    from .closure_cells_thin_wall import add_thin_walls
 
     if not CELLS:
         for part in (diffuse_cells, glossy_cells, glass_cells, refraction_cells, plain_cells):
@@ -263,3 +264,4 @@ def add_cells() -> None:
         mixed_cells()
         add_layers()
         add_subsurface()
+        add_thin_walls()

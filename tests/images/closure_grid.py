@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 
-from . import closure_cells
+from . import closure_cells, closure_cells_thin_wall
 
 PAGES, COLUMNS = 8, 8
 CELL = 12  # pixels of a ball's square
@@ -21,13 +21,18 @@ ONLY = os.environ.get("JANUS_CELLS", "")  # to look at those whose names hold th
 SEEDS, SAMPLES, BOUNCES = 8, 128 * TIMES, 4
 
 CASES = [f"page_{number}" for number in range(PAGES if FULL else 1)]
+# What only Blender 5.2 has. See tests/package/test_thin_wall.py.
+THIN_WALLS = "thin_walls"
 
 
 def names(page: str) -> list[str]:
     """From left to right and from the bottom row up: the order of the blocks of a picture."""
     closure_cells.add_cells()
     cells = [name for name in closure_cells.CELLS if ONLY in name]
-    return cells[int(page.rpartition("_")[2]) :: PAGES]
+    thin = [name for name in cells if name.startswith(closure_cells_thin_wall.NAME)]
+    if page == THIN_WALLS:
+        return thin
+    return [name for name in cells if name not in thin][int(page.rpartition("_")[2]) :: PAGES]
 
 
 def rows(page: str) -> int:

@@ -101,13 +101,17 @@ def captured(tmp_path_factory):
 
 
 def made_by_both(cases: ModuleType, folder: Path, timeout: float = 600.0) -> Callable:
-    """Runs both.py on a module of cases: get(case) -> (our capture, Cycles' pictures)."""
-    from janus_core import exr
-
+    """Runs both.py on a module of cases; see pictures_in()."""
     program = Path(__file__).with_name("both.py")
     command = [sys.executable, str(program), cases.__name__.rpartition(".")[2], str(folder)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=timeout)
     assert done.returncode == 0, done.stdout + done.stderr
+    return pictures_in(cases, folder)
+
+
+def pictures_in(cases: ModuleType, folder: Path) -> Callable:
+    """What both.py has written there: get(case) -> (our capture, Cycles' pictures)."""
+    from janus_core import exr
 
     read = exr.read_layers if hasattr(cases, "save") else exr.read
 

@@ -6,6 +6,7 @@
 #include "janus/shading/closure_parts.h"
 #include "janus/shading/layers.h"
 #include "janus/shading/rotation.h"
+#include "janus/shading/scatter.h"
 
 namespace janus {
 
@@ -13,6 +14,14 @@ Rgb ClosureArguments::seen_through(const ShadingResult& result, int layer) const
   return layer < 0 || !point_
              ? Rgb(1.0f)
              : through(result.bsdf.lobes()[static_cast<size_t>(layer)], point_->ng, point_->view);
+}
+
+float ClosureArguments::seen_cosine() const {
+  if (!point_) {
+    return 1.0f;
+  }
+  const vec3 n = valid_normal(point_->facing(normal_), point_->facing(point_->ng), point_->view);
+  return std::max(0.0f, dot(n, point_->view));
 }
 
 int add_lobe(const ClosureArguments& a, Lobe lobe, ShadingResult& out, vec3 normal, int layer) {
@@ -278,7 +287,7 @@ const ClosureDecl kDiffuseClosure{&diffuse::add, {.lobes = 1}},
     kEmissionClosure{&emission::add, {.emits = true, .emission = {1, 0.0f}}},
     kMetallicClosure{&metallic::add, {.lobes = 1, .anisotropy = {metallic::Anisotropy, 0.0f}}},
     kSheenClosure{&sheen::add, {.lobes = 1}}, kToonClosure{&toon::add, {.lobes = 1}},
-    kSubsurfaceClosure{&subsurface::add, {.lobes = 2}, {}, &subsurface::check};
+    kSubsurfaceClosure{&subsurface::add, {.lobes = 2}, &subsurface::check};
 
 const std::span<const SocketDecl> kDiffuseInputs(diffuse::kInputs), kGlossyInputs(glossy::kInputs),
     kGlassInputs(glass::kInputs), kRefractionInputs(refraction::kInputs),

@@ -58,6 +58,8 @@ class ClosureArguments {
   Rgb positive_color(int input) const { return glm::max(vector(input), Rgb(0.0f)); }
   float fraction(int input) const { return glm::clamp(number(input), 0.0f, 1.0f); }
   float positive(int input) const { return std::max(number(input), 0.0f); }
+  // The cosine of the view to the closure's normal, as its facets see both; 1 without a point.
+  float seen_cosine() const;
   // The share of light from `layer` of the result, and below, that reaches the viewer.
   Rgb seen_through(const ShadingResult& result, int layer) const;
 

@@ -65,17 +65,16 @@ float lit_bumps(vec3 n, vec3 ns, vec3 wi) {
 
 float toon_density(const Lobe& lobe) { return 0.5f * kInvPi / cone_opening(lobe); }
 
-// Diffuse lobes, on the side of wo or, of Translucent, on the other one. Camera walks draw wi as
-// the lobe scatters, mostly by the cosine to N. Light walks draw wo by the cosine to Ng, because
+// Diffuse lobes, on the side of wo or, of translucent ones, on the other one. Camera walks draw wi
+// as the lobe scatters, mostly by the cosine to N. Light walks draw wo by the cosine to Ng, because
 // the adjoint of the lobe is proportional to |wo . Ng|; this also reaches every wo for which the
 // lobe is not zero.
 LobeEval evaluate_diffuse(const Lobe& lobe, vec3 ng, const Directions& d) {
-  const bool translucent = lobe.type == LobeType::Translucent;
-  if (d.same_side() == translucent) {
+  if (d.same_side() == is_translucent(lobe.type)) {
     return {};
   }
   const float uniform = std::abs(d.wo_ng) * kInvPi;
-  if (translucent) {
+  if (lobe.type == LobeType::Translucent) {
     const float cos_i = std::max(0.0f, -dot(d.wi, seen_normal(lobe, ng, d.wo, d.wo_ng)));
     return {lobe.weight * (cos_i * kInvPi), cos_i * kInvPi, uniform};
   }
@@ -85,12 +84,14 @@ LobeEval evaluate_diffuse(const Lobe& lobe, vec3 ng, const Directions& d) {
     return {};
   }
   LobeEval out{lobe.weight, cos_i * kInvPi, uniform};
-  const float cos_o = dot(d.wo, n);
+  const vec3 wo = lobe.type == LobeType::RoughTranslucent ? mirrored(d.wo, n) : d.wo;
+  const float cos_o = dot(wo, n);
   switch (lobe.type) {
     case LobeType::OrenNayar:
-      out.f *= OrenNayar(lobe.sigma)
-                   .evaluate(std::max(0.0f, cos_o), cos_i, dot(d.wo, d.wi), lobe.color) *
-               cos_i;
+    case LobeType::RoughTranslucent:
+      out.f *=
+          OrenNayar(lobe.sigma).evaluate(std::max(0.0f, cos_o), cos_i, dot(wo, d.wi), lobe.color) *
+          cos_i;
       break;
     case LobeType::Sheen: {
       const SheenLobe sheen(lobe.alpha, cos_o);
@@ -126,10 +127,11 @@ std::optional<vec3> sample_diffuse(const Lobe& lobe, vec3 ng, vec3 from, vec2 u,
                                    TransportMode mode) {
   const float from_ng = dot(from, ng);
   const vec3 ng_from = from_ng < 0.0f ? -ng : ng;
-  const bool transmitted = lobe.type == LobeType::Translucent;
+  const bool transmitted = is_translucent(lobe.type);
   vec3 axis = ng_from, to;
   if (mode == TransportMode::Radiance) {
-    axis = transmitted ? seen_normal(lobe, ng, from, from_ng) : facing_normal(lobe, from_ng);
+    axis = lobe.type == LobeType::Translucent ? seen_normal(lobe, ng, from, from_ng)
+                                              : facing_normal(lobe, from_ng);
   } else if (!transmitted && dot(from, facing_normal(lobe, from_ng)) <= 0.0f) {
     return std::nullopt;  // this lobe is lit from behind its normal: its density is zero
   }

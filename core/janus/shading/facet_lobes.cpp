@@ -90,11 +90,22 @@ float defensive_share(const Lobe& lobe, bool transmitted) {
   if (lobe.type == LobeType::Glass) {
     return 0.5f;
   }
-  return transmitted == (lobe.type == LobeType::Refraction) ? 1.0f : 0.0f;
+  return transmitted == (lobe.type > LobeType::Glass) ? 1.0f : 0.0f;
 }
 
 float seen_lambda(const Facets& facets, vec3 w, float cos) {
   return facets.sampled_lambda(facets.lambda(w, cos), w, cos);
+}
+
+// With which light walks draw `wo` as a reflection at the normal that they see.
+float light_density(const Lobe& lobe, vec3 wo, vec3 wi, vec3 n_light) {
+  const float cos = dot(wi, n_light);
+  if (!(cos > 0.0f && dot(wo, n_light) > 0.0f)) {
+    return 0.0f;
+  }
+  const Facets facets(lobe, n_light);
+  return 0.25f * facets.distribution(normalize(wo + wi)) /
+         (cos * (1.0f + seen_lambda(facets, wi, cos)));
 }
 
 LobeEval evaluate_reflection(const Lobe& lobe, const Directions& d, vec3 n, vec3 n_light) {
@@ -128,12 +139,18 @@ LobeEval evaluate_reflection(const Lobe& lobe, const Directions& d, vec3 n, vec3
         pmf * quarter / (cos_i * (1.0f + facets.sampled_lambda(lambda_i, d.wi, cos_i)));
   }
   if (n != n_light) {
-    const float cos = dot(d.wi, n_light);
-    const Facets facets(lobe, n_light);
-    out.pdf_importance =
-        cos > 0.0f && dot(d.wo, n_light) > 0.0f
-            ? pmf * 0.25f * facets.distribution(h) / (cos * (1.0f + seen_lambda(facets, d.wi, cos)))
-            : 0.0f;
+    out.pdf_importance = pmf * light_density(lobe, d.wo, d.wi, n_light);
+  }
+  return out;
+}
+
+// A reflection whose far direction is mirrored. `n` on the side of wo, `n_light` on that of wi.
+LobeEval evaluate_mirrored(const Lobe& lobe, Directions d, vec3 n, vec3 n_light) {
+  const vec3 wi = d.wi;
+  d.wi = mirrored(wi, n);
+  LobeEval out = evaluate_reflection(lobe, d, n, n);
+  if (n_light != -n) {
+    out.pdf_importance = light_density(lobe, mirrored(d.wo, n_light), wi, n_light);
   }
   return out;
 }
@@ -230,6 +247,8 @@ LobeEval evaluate_facets(const Lobe& lobe, vec3 ng, const Directions& d) {
   const vec3 n_light = seen_normal(lobe, ng, d.wi, d.wi_ng);
   LobeEval out = lobe.type == LobeType::AshikhminShirley
                      ? evaluate_ashikhmin_shirley(lobe, d, n, n_light)
+                 : lobe.type == LobeType::MirroredGlossy
+                     ? (d.same_side() ? LobeEval{} : evaluate_mirrored(lobe, d, n, n_light))
                  : d.same_side() ? evaluate_reflection(lobe, d, n, n_light)
                                  : evaluate_refraction(lobe, d, n, n_light);
   if (needs_defence(lobe, ng)) {
@@ -258,7 +277,10 @@ std::optional<vec3> sample_facets(const Lobe& lobe, vec3 ng, vec3 from, float u_
                                                          : Facets(lobe, n).sample_visible(from, u);
   std::optional<vec3> to = reflect_about(from, h);
   bool transmitted = false;
-  if (transmits(lobe)) {
+  if (lobe.type == LobeType::MirroredGlossy) {
+    to = mirrored(*to, n);
+    transmitted = true;
+  } else if (transmits(lobe)) {
     const float eta = far_index(lobe, from_ng);
     const GlassEvents events(lobe, std::max(0.0f, dot(from, h)), eta);
     if (u_event >= events.pmf_reflect) {

@@ -94,12 +94,9 @@ void GraphCompiler::closure(const NodeReader& reader, Value share) {
   const ClosureTraits& traits = step.decl->traits;
   program_.fibers |= traits.fibers;
   program_.edges |= traits.fibers;
-  program_.transmits |= traits.transmits && !neutral(step, traits.transmission);
-  for (const LeftOut& left_out : step.decl->left_out) {
-    if (reader.link(left_out.input) || reader.color(left_out.input) != Rgb(left_out.neutral)) {
-      reader.warn(std::string(left_out.message));
-    }
-  }
+  const bool thin = traits.thin_wall.index >= 0 && !neutral(step, traits.thin_wall);
+  const bool thin_glass = thin && !neutral(step, traits.transmission);
+  program_.transmits |= traits.transmits && (thin || !neutral(step, traits.transmission));
   if (step.decl->check) {
     step.decl->check(reader);
   }
@@ -109,21 +106,23 @@ void GraphCompiler::closure(const NodeReader& reader, Value share) {
   for (const ClosureTraits::Input& cover : traits.covers) {
     dimmed |= glows && cover.index >= 0 && !neutral(step, cover);
   }
-  if (dimmed) {
+  const bool by_view = dimmed || thin_glass;
+  if (by_view) {
     program_.dependence = Dependence::View;
   } else if (turned) {
     program_.dependence = std::max(program_.dependence, Dependence::Side);
   }
   const auto known = [&](Value v) { return as_constant(v) != nullptr; };
-  if (!dimmed && !turned && !step.has_normal && known(share) &&
+  if (!by_view && !turned && !step.has_normal && known(share) &&
       std::all_of(step.operands.begin(), step.operands.end(), known)) {
     add_constant(reader, step);
     return;
   }
   program_.varying_emission |= glows;
-  program_.varying_transparency |= traits.transparent && !neutral(step, traits.alpha);
+  program_.varying_transparency |=
+      traits.transparent && (thin_glass || !neutral(step, traits.alpha));
   program_.varying_holdout |= traits.holds_out;
-  lobes_ += traits.lobes;
+  lobes_ += traits.lobes + (thin_glass ? 1 : 0);
   for (const auto& optional : {traits.parts, traits.covers}) {
     for (const ClosureTraits::Input& part : std::span(optional, 2)) {
       lobes_ -= neutral(step, part) ? 1 : 0;

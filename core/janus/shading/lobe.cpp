@@ -64,6 +64,12 @@ Lobe oren_nayar_lobe(Rgb weight, Rgb albedo, float roughness) {
 
 Lobe translucent_lobe(Rgb weight) { return lobe(LobeType::Translucent, weight); }
 
+Lobe rough_translucent_lobe(Rgb weight, Rgb albedo, float roughness) {
+  Lobe out = oren_nayar_lobe(weight, albedo, roughness);
+  out.type = LobeType::RoughTranslucent;
+  return out;
+}
+
 Lobe sheen_lobe(Rgb weight, float roughness, Rgb layer) {
   Lobe out = lobe(LobeType::Sheen, weight);
   out.alpha = std::clamp(roughness, 1e-3f, 1.0f);
@@ -152,6 +158,12 @@ Lobe glass_lobe(Rgb weight, Rgb tint, bool tinted_reflection, float ior, float a
 Lobe refraction_lobe(Rgb weight, float ior, float alpha) {
   Lobe out = facets_lobe(LobeType::Refraction, weight, alpha, false);
   set_index(out, ior);
+  return out;
+}
+
+Lobe mirrored_glossy_lobe(Rgb weight, float alpha) {
+  Lobe out = glossy_lobe(weight, alpha, true);
+  out.type = LobeType::MirroredGlossy;
   return out;
 }
 

@@ -9,13 +9,14 @@
 namespace janus {
 
 enum class LobeType : uint8_t {
-  Diffuse,      // Lambert
-  OrenNayar,    // rough diffuse (Fujii's Oren-Nayar with multiple scattering)
-  Sheen,        // fine fibres on a surface. See sheen.h.
-  Velvet,       // Ashikhmin's
-  DiffuseToon,  // a cone around the normal
-  Subsurface,   // a random walk below the surface; comes up as Lambert. See subsurface.h.
-  Translucent,  // Lambert to the other side
+  Diffuse,           // Lambert
+  OrenNayar,         // rough diffuse (Fujii's Oren-Nayar with multiple scattering)
+  Sheen,             // fine fibres on a surface. See sheen.h.
+  Velvet,            // Ashikhmin's
+  DiffuseToon,       // a cone around the normal
+  Subsurface,        // a random walk below the surface; comes up as Lambert. See subsurface.h.
+  Translucent,       // Lambert to the other side
+  RoughTranslucent,  // OrenNayar, mirrored to the other side
   // Light on a fibre, seen as a whole; all take the whole sphere. See hair.h.
   HairReflection,    // Hair BSDF, Reflection
   HairTransmission,  // and Transmission
@@ -31,15 +32,16 @@ enum class LobeType : uint8_t {
   Coat,              // a dielectric's
   Glass,             // reflection and refraction at a dielectric
   Refraction,        // refraction alone, without Fresnel term
+  MirroredGlossy,    // Glossy, mirrored to the other side: what goes through a thin wall
 };
 
 // One term of a Bsdf: plain data in world space, without anything that depends on the view, so that
 // it can be kept in a cache. Made by the functions below; the normal is set where it is placed.
 struct Lobe {
   Rgb weight;  // colour times the closure's share in Mix and Add
-  // Metal, Specular: F0; Conductor: real part of its index; Glass: tint; OrenNayar: albedo; Glossy:
-  // multiscatter tint; Chiang: absorption by radius; Coat: tint; Sheen: its share as a layer;
-  // Subsurface: albedo
+  // Metal, Specular: F0; Conductor: real part of its index; Glass: tint; OrenNayar,
+  // RoughTranslucent: albedo; Glossy, MirroredGlossy: multiscatter tint; Chiang: absorption by
+  // radius; Coat: tint; Sheen: its share as a layer; Subsurface: albedo
   Rgb color;
   // Metal: the F82 term's factor; Conductor: imaginary part of its index; Specular, Coat:
   // multiscatter tint; Glass: tint of F0; Subsurface: radius, metres, and once a light subpath has
@@ -54,9 +56,9 @@ struct Lobe {
   // Of facets of two widths, packed (see pack_direction()); Subsurface: its SubsurfaceMethod
   uint32_t tangent;
   float ior;  // index of the back side relative to the front side
-  // OrenNayar, Velvet: roughness. Fibres: how wide light spreads around them. Toon: the angle over
-  // which it fades. Coat: its share as a layer. Subsurface: anisotropy. Other facets: thickness of
-  // the film on them, nm
+  // OrenNayar, RoughTranslucent, Velvet: roughness. Fibres: how wide light spreads around them.
+  // Toon: the angle over which it fades. Coat: its share as a layer. Subsurface: anisotropy. Other
+  // facets: thickness of the film on them, nm
   float sigma;
   float tilt;  // fibres: of their scales, radians. Facets: index of the film on them
   // Probability of choosing this lobe when sampling: from pmf_normal for a walk that arrives along
@@ -79,14 +81,17 @@ inline bool is_fiber(LobeType type) {
 inline bool is_toon(LobeType type) {
   return type == LobeType::DiffuseToon || type == LobeType::GlossyToon;
 }
-inline bool is_diffuse(LobeType type) { return type <= LobeType::Translucent; }
+inline bool is_diffuse(LobeType type) { return type <= LobeType::RoughTranslucent; }
+inline bool is_translucent(LobeType type) {
+  return type == LobeType::Translucent || type == LobeType::RoughTranslucent;
+}
 inline bool is_delta(const Lobe& lobe) { return has_facets(lobe.type) && lobe.alpha == 0.0f; }
 // Lobes that scatter light where it falls, in more than one direction.
 inline bool is_connectible(const Lobe& lobe) {
   return !is_delta(lobe) && lobe.type != LobeType::Subsurface;
 }
 inline bool transmits(const Lobe& lobe) {
-  return lobe.type >= LobeType::Glass || lobe.type == LobeType::Translucent || is_fiber(lobe.type);
+  return lobe.type >= LobeType::Glass || is_translucent(lobe.type) || is_fiber(lobe.type);
 }
 // The roughness that tables of albedos are made for: the root of the facets' width.
 inline float roughness(const Lobe& lobe) {
@@ -106,6 +111,7 @@ struct FacetWidths {
 Lobe diffuse_lobe(Rgb weight);
 Lobe oren_nayar_lobe(Rgb weight, Rgb albedo, float roughness);
 Lobe translucent_lobe(Rgb weight);
+Lobe rough_translucent_lobe(Rgb weight, Rgb albedo, float roughness);
 // `layer`: what it is of a layer that covers all, beside its share in Mix and Add.
 Lobe sheen_lobe(Rgb weight, float roughness, Rgb layer = Rgb(1.0f));
 Lobe velvet_lobe(Rgb weight, float sigma);
@@ -128,6 +134,8 @@ Lobe coat_lobe(Rgb weight, float eta, float alpha, float share, Rgb tint);
 Lobe glass_lobe(Rgb weight, Rgb tint, bool tinted_reflection, float ior, float alpha,
                 bool multiscatter = false, Rgb f0_tint = Rgb(1.0f));
 Lobe refraction_lobe(Rgb weight, float ior, float alpha);
+// With Multiscatter of white facets. No delta: what goes straight through is no lobe.
+Lobe mirrored_glossy_lobe(Rgb weight, float alpha);
 // A lobe of facets (none of Coat and Refraction) below a thin film. `thickness`: nanometres.
 Lobe with_film(Lobe lobe, float thickness, float ior);
 // `lobe` with facets of Beckmann's distribution, which have no Multiscatter.

@@ -96,23 +96,18 @@ struct ClosureTraits {
   int lobes = 0;  // at most
   // Which may make it dark, opaque or reflecting after all, or its facets as wide along as across.
   Input emission{}, alpha{}, transmission{}, anisotropy{};
+  // Which may make it a thin wall: what it transmits then depends on the direction of view, some of
+  // it goes straight through, and it has a lobe more.
+  Input thin_wall{};
   Input parts[4]{};   // each with a lobe
   Input covers[2]{};  // the same, and they dim what glows below them
 };
 
-// An input that a closure leaves out, unless it is neutral, and what is said then.
-struct LeftOut {
-  std::string_view input;
-  float neutral;
-  std::string_view message;
-};
-
-// A closure node: adds to a result what its parameters say; `check` names what else cannot be
-// rendered as asked, where that can be seen from the graph.
+// A closure node: adds to a result what its parameters say; `check` names what cannot be rendered
+// as asked, where that can be seen from the graph.
 struct ClosureDecl {
   void (*add)(const ClosureArguments&, ShadingResult&);
   ClosureTraits traits;
-  std::span<const LeftOut> left_out = {};
   void (*check)(const NodeReader&) = nullptr;
 };
 

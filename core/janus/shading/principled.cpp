@@ -6,6 +6,7 @@
 #include "janus/shading/closure_parts.h"
 #include "janus/shading/facet_lobes.h"
 #include "janus/shading/fresnel.h"
+#include "janus/shading/thin_wall.h"
 
 namespace janus {
 
@@ -43,7 +44,9 @@ enum Input {
   SubsurfaceRadius,
   SubsurfaceScale,
   SubsurfaceIor,
-  SubsurfaceAnisotropy
+  SubsurfaceAnisotropy,
+  NormalInput,
+  ThinWall
 };
 constexpr SocketDecl kInputs[] = {{"Base Color", Color, 0.8f},
                                   {"Metallic", Float, 0.0f},
@@ -106,6 +109,31 @@ float layer_index(float ior, float level, float f0) {
   return ior < 1.0f ? 1.0f / eta : eta;
 }
 
+// A sheet of glass with all reflections between its sides. What goes straight through it is no lobe
+// but a crossing: in Cycles, too, for all rays but the camera's.
+void add_thin_glass(const ClosureArguments& a, float weight, Rgb base, float ior, float width,
+                    Rgb tint, int covers, ShadingResult& out) {
+  const Lobe side = glass_lobe(Rgb(1.0f), Rgb(1.0f), false, ior, 0.0f, false, tint);
+  const ThinGlass glass =
+      thin_glass(below_film(a, side, FilmThickness, FilmIor), base, a.seen_cosine());
+  add_lobe(a, glossy_lobe(weight * glass.reflected, width, true, tint), out, covers);
+  const Lobe through = mirrored_glossy_lobe(weight * glass.transmitted, thin_width(width, ior));
+  if (is_delta(through)) {
+    out.transparency += through.weight * a.seen_through(out, covers);
+  } else {
+    add_lobe(a, through, out, covers);
+  }
+}
+
+// A sheet of dense scattering matter: light comes out on both sides.
+void add_thin_subsurface(const ClosureArguments& a, Rgb weight, Rgb albedo, int layer,
+                         ShadingResult& out) {
+  const float forward = std::clamp(0.5f + 0.5f * a.number(SubsurfaceAnisotropy), 0.0f, 1.0f);
+  const float rough = a.fraction(DiffuseRoughness);
+  add_lobe(a, rough_diffuse((1.0f - forward) * weight, albedo, rough), out, layer);
+  add_lobe(a, rough_translucent_lobe(forward * weight, albedo, rough), out, layer);
+}
+
 // Cycles mixes from the outside in: alpha, the covers, metallic, transmission, and a dielectric
 // layer over diffuse. Each takes its part of the weight that the ones before have left.
 void add(const ClosureArguments& a, ShadingResult& out) {
@@ -128,12 +156,17 @@ void add(const ClosureArguments& a, ShadingResult& out) {
              out, covers);
     weight *= 1.0f - metallic;
   }
+  const bool thin = std::abs(a.number(ThinWall)) >= 1.0f;  // a whole number in Cycles
   const float transmission = a.fraction(Transmission);
   if (transmission > kCutoff) {
-    add_lobe(a,
-             filmed(glass_lobe(Rgb(weight * transmission), glm::sqrt(clamped), false, ior, width,
-                               a.multiscatter(), tint)),
-             out, covers);
+    if (thin) {
+      add_thin_glass(a, weight * transmission, clamped, ior, width, tint, covers, out);
+    } else {
+      add_lobe(a,
+               filmed(glass_lobe(Rgb(weight * transmission), glm::sqrt(clamped), false, ior, width,
+                                 a.multiscatter(), tint)),
+               out, covers);
+    }
     weight *= 1.0f - transmission;
   }
   if (weight == 0.0f) {
@@ -149,7 +182,10 @@ void add(const ClosureArguments& a, ShadingResult& out) {
     layer = add_lobe(a, specular, out, covers);
   }
   const float subsurface = a.fraction(SubsurfaceWeight);
-  if (subsurface > 0.0f) {
+  if (subsurface > 0.0f && thin) {
+    add_thin_subsurface(a, subsurface * weight * clamped, clamped, layer, out);
+    weight *= 1.0f - subsurface;
+  } else if (subsurface > 0.0f) {
     const bool skin = a.setting(1) == static_cast<int>(SubsurfaceMethod::Skin);
     add_subsurface(a, 1, subsurface * weight * clamped, clamped,
                    glm::max(a.number(SubsurfaceScale) * a.vector(SubsurfaceRadius), Rgb(0.0f)),
@@ -167,9 +203,6 @@ void check(const NodeReader& node) {
   }
 }
 
-constexpr LeftOut kLeftOut[] = {
-    {"Thin Wall", 0.0f, "thin walls are not supported yet; a closed surface is rendered"},
-};
 }  // namespace principled
 
 }  // namespace
@@ -184,12 +217,12 @@ const ClosureDecl kPrincipledClosure{
      .alpha = {principled::Alpha, 1.0f},
      .transmission = {principled::Transmission, 0.0f},
      .anisotropy = {principled::Anisotropic, 0.0f},
+     .thin_wall = {principled::ThinWall, 0.0f},
      .parts = {{principled::Metallic, 0.0f},
                {principled::Transmission, 0.0f},
                {principled::SubsurfaceWeight, 0.0f},
                {principled::SubsurfaceWeight, 0.0f}},
      .covers = {{principled::CoatWeight, 0.0f}, {principled::SheenWeight, 0.0f}}},
-    principled::kLeftOut,
     &principled::check};
 
 const std::span<const SocketDecl> kPrincipledInputs(principled::kInputs);

@@ -19,6 +19,9 @@ inline vec3 seen_normal(const Lobe& lobe, vec3 ng, vec3 w, float w_ng) {
   return valid_normal(facing_normal(lobe, w_ng), w_ng < 0.0f ? -ng : ng, w);
 }
 
+// The direction on the other side of the plane across unit `n`.
+inline vec3 mirrored(vec3 w, vec3 n) { return w - 2.0f * dot(w, n) * n; }
+
 // Index of the far side relative to the side of a direction with cosine `w_ng` to Ng.
 inline float far_index(const Lobe& lobe, float w_ng) {
   return w_ng < 0.0f ? 1.0f / lobe.ior : lobe.ior;

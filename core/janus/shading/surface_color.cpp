@@ -56,6 +56,7 @@ SurfaceColor surface_color(const Lobe& lobe, vec3 front, vec3 wo) {
       break;
     }
     case LobeType::Refraction:
+    case LobeType::MirroredGlossy:
       color.transmission = weight;
       break;
     default:

@@ -119,6 +119,13 @@ NodeGraph covered() {
                                    {"Emission Strength", 0.3f}});
 }
 
+NodeGraph thin_wall(std::map<std::string, NodeInput> inputs) {
+  inputs.insert({{"Thin Wall", 1.0f},
+                 {"Transmission Weight", 0.8f},
+                 {"Base Color", vec4(0.9f, 0.7f, 0.4f, 1)}});
+  return single("BSDF_PRINCIPLED", std::move(inputs));
+}
+
 // Displaced by the same waves, as bump, and bumped across.
 NodeGraph displaced() {
   NodeGraph g = waved("BSDF_PRINCIPLED", {{"Base Color", vec4(0.8f, 0.5f, 0.2f, 1)},
@@ -181,6 +188,31 @@ const ShaderScene kScenes[] = {
     {"glowing_rim", &glowing_rim, true},
     {"veil", &veil, true},
     {"one_way_veil", &one_way_veil, true},
+    {"thin_glass", [] { return thin_wall({{"Roughness", 0.0f}}); }, false, 64},  // and a mirror
+    {"rough_thin_glass", [] { return thin_wall({{"Roughness", 0.5f}}); }, true, 64},
+    {"coated_thin_glass",
+     [] {
+       return thin_wall({{"Roughness", 0.4f},
+                         {"Coat Weight", 0.7f},
+                         {"Coat Roughness", 0.4f},
+                         {"Thin Film Thickness", 400.0f}});
+     },
+     true, 64},
+    {"leaf",
+     [] {
+       return thin_wall({{"Transmission Weight", 0.0f},
+                         {"Subsurface Weight", 1.0f},
+                         {"Diffuse Roughness", 0.7f}});
+     },
+     true, 64},
+    {"bumped_thin_glass",
+     [] {
+       return waved("BSDF_PRINCIPLED", {{"Thin Wall", 1.0f},
+                                        {"Transmission Weight", 0.8f},
+                                        {"Subsurface Weight", 0.7f},
+                                        {"Roughness", 0.5f}});
+     },
+     true, 64},
 };
 
 std::ostream& operator<<(std::ostream& out, const ShaderScene& s) { return out << s.name; }

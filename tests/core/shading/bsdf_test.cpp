@@ -34,6 +34,13 @@ const BsdfCase kCases[] = {
     {"oren_nayar_tilted", {placed(oren_nayar_lobe(kWhite, Rgb(0.9f), 1), kTilted)}},
     {"translucent", {translucent_lobe(Rgb(0.7f))}},
     {"translucent_tilted", {placed(translucent_lobe(Rgb(0.7f)), kTilted)}},
+    {"rough_translucent", {rough_translucent_lobe(kWhite, Rgb(0.5f), 0.7f)}},
+    {"rough_translucent_tilted", {placed(rough_translucent_lobe(kWhite, Rgb(0.9f), 1), kTilted)}},
+    {"mirrored_glossy", {mirrored_glossy_lobe(Rgb(0.9f), 0.3f)}, false, false},
+    {"mirrored_glossy_tilted",
+     {placed(mirrored_glossy_lobe(Rgb(0.9f), 0.4f), kTilted)},
+     false,
+     false},
     {"glossy", {glossy_lobe(Rgb(0.9f), 0.3f)}},
     {"glossy_narrow", {glossy_lobe(Rgb(0.9f), 0.15f)}},
     {"glossy_tilted", {placed(glossy_lobe(Rgb(0.9f), 0.4f), kTilted)}},
@@ -190,7 +197,8 @@ TEST_P(Bsdfs, SamplesAgreeWithTheFunctions) {
 // its retroreflection grows without bound towards the horizon.)
 TEST_P(Bsdfs, WeightsAreBounded) {
   for (const Lobe& lobe : bsdf_.lobes()) {
-    if (lobe.type == LobeType::OrenNayar || lobe.type == LobeType::Velvet) {
+    if (lobe.type == LobeType::OrenNayar || lobe.type == LobeType::RoughTranslucent ||
+        lobe.type == LobeType::Velvet) {
       return;
     }
   }

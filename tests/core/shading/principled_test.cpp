@@ -62,7 +62,6 @@ TEST(Compiler, PrincipledNamesWhatIsLeftOut) {
     return warned(compiled(graph), "Shader", part);
   };
   for (const NodeInput& input : {NodeInput(0.5f), link("Noise")}) {
-    EXPECT_TRUE(message({{"Thin Wall", input}}, "thin wall"));
     EXPECT_TRUE(message({{"Subsurface Weight", input}}, "BURLEY", "BURLEY"));
   }
   EXPECT_FALSE(message({{"Subsurface Weight", 0.5f}}, "BURLEY"));

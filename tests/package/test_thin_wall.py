@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Principled's thin walls beside Cycles': among the Blenders of the tests only a real one has them."""
+
+import sys
+
+import pytest
+from conftest import MODULE, ROOT, Blender
+
+sys.path.insert(0, str(ROOT / "tests"))
+from images import closure_grid, test_closures  # noqa: E402
+from images.conftest import pictures_in  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def pictures(installed: Blender):
+    """Cycles' pictures by the real Blender, and its capture for the core that is tested here."""
+    for name in ("scenes", "tests"):
+        if not (installed.folder / name).exists():
+            (installed.folder / name).mkdir()
+    installed.add(ROOT / "scenes")
+    images = installed.folder / "tests/images"
+    images.mkdir(exist_ok=True)
+    for path in (ROOT / "tests/images").glob("*.py"):
+        (images / path.name).write_bytes(path.read_bytes())
+    done = installed.run(
+        *("--addons", MODULE, "-P", installed.inside("tests/images/both.py"), "--"),
+        *("closure_grid", installed.inside(""), closure_grid.THIN_WALLS),
+        timeout=900,
+    )
+    assert done.returncode == 0, done.stdout
+    return pictures_in(closure_grid, installed.folder)
+
+
+@pytest.mark.parametrize("integrator", test_closures.SAMPLES)
+def test_parity(pictures, integrator: str):
+    test_closures.check_parity(pictures, closure_grid.THIN_WALLS, integrator)
