@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Principled's thin walls beside Cycles': among the Blenders of the tests only a real one has them."""
 
+import shutil
 import sys
 
 import pytest
@@ -14,14 +15,12 @@ from images.conftest import pictures_in  # noqa: E402
 @pytest.fixture(scope="module")
 def pictures(installed: Blender):
     """Cycles' pictures by the real Blender, and its capture for the core that is tested here."""
-    for name in ("scenes", "tests"):
-        if not (installed.folder / name).exists():
-            (installed.folder / name).mkdir()
-    installed.add(ROOT / "scenes")
+    for name in ("scenes", "addon"):  # the driver reads files of both
+        installed.add(ROOT / name)
     images = installed.folder / "tests/images"
-    images.mkdir(exist_ok=True)
+    images.mkdir(parents=True)
     for path in (ROOT / "tests/images").glob("*.py"):
-        (images / path.name).write_bytes(path.read_bytes())
+        shutil.copy(path, images)
     done = installed.run(
         *("--addons", MODULE, "-P", installed.inside("tests/images/both.py"), "--"),
         *("closure_grid", installed.inside(""), closure_grid.THIN_WALLS),

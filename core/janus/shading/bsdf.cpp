@@ -43,20 +43,28 @@ float refraction_jacobian(vec3 wo, vec3 wi, vec3 n, float eta2_light_over_camera
 void Bsdf::finish() {
   // No lobe is forgotten, whatever its albedo is thought to be.
   constexpr float kFloor = 0.01f;
-  const auto share = [this](float cos, float Lobe::* out) {
+  if (count_ == 1) {
+    lobes_[0].pmf_normal = lobes_[0].pmf_grazing = 1.0f;
+    return;
+  }
+  for (Lobe& lobe : lobes()) {
+    const EstimatedAlbedo albedo = estimated_albedo(lobe);
+    lobe.pmf_normal = albedo.normal;
+    lobe.pmf_grazing = albedo.grazing;
+  }
+  for (float Lobe::* pmf : {&Lobe::pmf_normal, &Lobe::pmf_grazing}) {
     float sum = 0.0f, total = 0.0f;
-    for (int i = 0; i < count_; ++i) {
-      sum += lobes_[i].*out = estimated_albedo(lobes_[i], cos);
+    for (const Lobe& lobe : lobes()) {
+      sum += lobe.*pmf;
     }
-    for (int i = 0; i < count_; ++i) {
-      total += lobes_[i].*out = std::max(lobes_[i].*out, kFloor * sum);
+    for (Lobe& lobe : lobes()) {
+      total += lobe.*pmf = std::max(lobe.*pmf, kFloor * sum);
     }
-    for (int i = 0; i < count_; ++i) {
-      lobes_[i].*out = count_ == 1 ? 1.0f : total > 0.0f ? lobes_[i].*out / total : 0.0f;
+    const float scale = total > 0.0f ? 1.0f / total : 0.0f;
+    for (Lobe& lobe : lobes()) {
+      lobe.*pmf *= scale;
     }
-  };
-  share(1.0f, &Lobe::pmf_normal);
-  share(0.0f, &Lobe::pmf_grazing);
+  }
 }
 
 float Bsdf::albedo() const {

@@ -117,7 +117,9 @@ LobeEval evaluate_diffuse(const Lobe& lobe, vec3 ng, const Directions& d) {
     default:
       out.f *= out.pdf_radiance;
   }
-  if (lobe.bumped && lobe.type != LobeType::Velvet) {  // which is glossy for Cycles
+  // Velvet is glossy for Cycles. What it lets through it dims where it joins light, not where light
+  // is found by chance.
+  if (lobe.bumped && lobe.type != LobeType::Velvet && lobe.type != LobeType::RoughTranslucent) {
     out.f *= lit_bumps(n, d.ns, d.wi);
   }
   return out;

@@ -216,6 +216,18 @@ Rgb reflectance(const Lobe& lobe, float cos) {
   }
 }
 
+Rgb straight_reflectance(const Lobe& lobe) {
+  switch (lobe.type) {
+    case LobeType::Metal:
+    case LobeType::Specular:
+      return film(lobe).exists() ? reflectance(lobe, 1.0f) : lobe.color;
+    case LobeType::Coat:
+      return Rgb(fresnel_normal(lobe.ior));
+    default:
+      return reflectance(lobe, 1.0f);
+  }
+}
+
 GlassEvents::GlassEvents(const Lobe& lobe, float cos, float eta) {
   const float f = fresnel_closure(cos, eta);
   if (lobe.type == LobeType::Refraction) {

@@ -18,6 +18,8 @@ inline ThinFilm film(const Lobe& lobe) { return {lobe.sigma, lobe.tilt}; }
 
 // Fresnel term of a facet under the cosine `cos`, for lobes that only reflect.
 Rgb reflectance(const Lobe& lobe, float cos);
+// The same straight on.
+Rgb straight_reflectance(const Lobe& lobe);
 
 // Reflection and refraction at a facet of a Glass or Refraction lobe: what they keep, and the
 // probability of choosing reflection. `eta`: index of the far side. Both are the same from both

@@ -65,21 +65,23 @@ Rgb covers_transmittance(const Lobe& lobe, vec3 ng, vec3 wo) {
   return lobe.above ? through(*(&lobe - lobe.above), ng, wo) : Rgb(1.0f);
 }
 
-float covered_share(const Lobe& lobe, float cos) {
+CoveredShare covered_share(const Lobe& lobe) {
   // Light walks arrive at grazing angles without the loss that the camera side sees.
   constexpr float kLeast = 0.25f;
   constexpr float kSheen = 0.2f;  // what it reflects, more or less
-  float share = 1.0f;
+  CoveredShare share;
   for (const Lobe* layer = &lobe; layer->above;) {
     layer -= layer->above;
     if (layer->type == LobeType::Sheen) {
-      share *= 1.0f - kSheen;
+      share.normal *= 1.0f - kSheen;
+      share.grazing *= 1.0f - kSheen;
     } else {
       const float whole = layer->type == LobeType::Coat ? layer->sigma : 1.0f;
-      share *= 1.0f - whole * max_component(reflectance(*layer, cos));
+      share.normal *= 1.0f - whole * max_component(straight_reflectance(*layer));
+      share.grazing *= 1.0f - whole;
     }
   }
-  return std::max(kLeast, share);
+  return {std::max(kLeast, share.normal), std::max(kLeast, share.grazing)};
 }
 
 }  // namespace janus

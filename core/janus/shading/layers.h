@@ -17,8 +17,11 @@ Rgb covers_transmittance(const Lobe& lobe, vec3 ng, vec3 wo);
 // The share that comes through `layer` and all that covers it.
 Rgb through(const Lobe& layer, vec3 ng, vec3 wo);
 
-// An estimate of the same, for a walk at cosine `cos` from either end.
-float covered_share(const Lobe& lobe, float cos);
+// An estimate of the same, for walks that come straight on or at the horizon, from either end.
+struct CoveredShare {
+  float normal = 1.0f, grazing = 1.0f;
+};
+CoveredShare covered_share(const Lobe& lobe);
 
 // The mean reflectance of a Specular or Coat lobe of facets without masking, at cosine `cos_o`.
 Rgb layer_reflectance(const Lobe& lobe, float cos_o);

@@ -102,27 +102,34 @@ std::optional<DeltaEvent> sample_delta(const Lobe& lobe, vec3 ng, vec3 from, flo
   return event;
 }
 
-float estimated_albedo(const Lobe& lobe, float cos) {
-  const float share = covered_share(lobe, cos);
+EstimatedAlbedo estimated_albedo(const Lobe& lobe) {
+  const float weight = average(lobe.weight);
+  const auto covered = [&](float normal, float grazing) {
+    const CoveredShare share = covered_share(lobe);
+    return EstimatedAlbedo{share.normal * normal, share.grazing * grazing};
+  };
   switch (lobe.type) {
     case LobeType::Metal:
     case LobeType::Conductor:
     case LobeType::Specular:
-    case LobeType::Coat:
-      return share * average(lobe.weight * reflectance(lobe, cos));
+    case LobeType::Coat:  // at the horizon all are mirrors
+      return covered(average(lobe.weight * straight_reflectance(lobe)), weight);
     case LobeType::Glass: {
-      const GlassEvents events(lobe, cos, std::max(lobe.ior, 1.0f / lobe.ior));
-      return share * average(lobe.weight * (events.reflected + events.transmitted));
+      const GlassEvents events(lobe, 1.0f, std::max(lobe.ior, 1.0f / lobe.ior));
+      return covered(average(lobe.weight * (events.reflected + events.transmitted)),
+                     lobe.tinted_reflection ? average(lobe.weight * lobe.color) : weight);
     }
     case LobeType::Sheen:
-      return average(lobe.weight) * SheenLobe(lobe.alpha, cos).albedo;
+      return {weight * SheenLobe(lobe.alpha, 1.0f).albedo,
+              weight * SheenLobe(lobe.alpha, 0.0f).albedo};
     case LobeType::ChiangReflection:
-      return average(lobe.weight) * fresnel_dielectric(cos, lobe.ior);
-    case LobeType::ChiangRest:  // most of it goes through once
-      return average(lobe.weight * glm::exp(-2.0f * lobe.color)) *
-             sqr(1.0f - fresnel_dielectric(cos, lobe.ior));
+      return {weight * fresnel_normal(lobe.ior), weight};
+    case LobeType::ChiangRest:  // most of it goes through once, and none at the horizon
+      return {average(lobe.weight * glm::exp(-2.0f * lobe.color)) *
+                  sqr(1.0f - fresnel_normal(lobe.ior)),
+              0.0f};
     default:
-      return share * average(lobe.weight);
+      return covered(weight, weight);
   }
 }
 

@@ -65,8 +65,11 @@ struct DeltaEvent {
 std::optional<DeltaEvent> sample_delta(const Lobe& lobe, vec3 ng, vec3 from, float u,
                                        TransportMode mode);
 
-// Albedo estimate for a direction at cosine `cos`: what lobes are chosen by.
-float estimated_albedo(const Lobe& lobe, float cos);
+// Albedo estimates for directions straight on and at the horizon: what lobes are chosen by.
+struct EstimatedAlbedo {
+  float normal, grazing;
+};
+EstimatedAlbedo estimated_albedo(const Lobe& lobe);
 
 // Colour of the light that leaves after several bounces between facets, for single bounces of
 // average reflectance `fss` and facets of average albedo `average` (Kulla & Conty 2017). The series
