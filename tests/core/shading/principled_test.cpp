@@ -66,6 +66,7 @@ TEST(Compiler, PrincipledNamesWhatIsLeftOut) {
   }
   EXPECT_FALSE(message({{"Subsurface Weight", 0.5f}}, "BURLEY"));
   EXPECT_FALSE(message({}, "BURLEY", "BURLEY"));  // where there is none
+  EXPECT_FALSE(message({{"Subsurface Weight", 0.5f}, {"Thin Wall", 1.0f}}, "BURLEY", "BURLEY"));
   EXPECT_TRUE(warned(compiled(subsurface(Rgb(0.5f), {}, "BURLEY")), "Shader", "BURLEY"));
 }
 
