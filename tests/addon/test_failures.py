@@ -170,6 +170,7 @@ def test_other_core_version_is_refused(addon, monkeypatch):
     from types import SimpleNamespace
 
     bridge = part("bridge")
+
     def found(version):
         return SimpleNamespace(__version__=version, __file__="/janus_core/__init__.py")
 
