@@ -10,7 +10,10 @@ from conftest import part
 
 
 def shipped(kind: str = "light_paths") -> list[str]:
-    folders = bpy.utils.preset_paths(f"janus/{kind}")
+    presets = part("ui.presets")
+    folders = [presets.FOLDER / "presets/janus" / kind]
+    if presets.folders_can_be_named():
+        folders = bpy.utils.preset_paths(f"janus/{kind}")
     return sorted(str(file) for folder in folders for file in Path(folder).glob("*.py"))
 
 
