@@ -33,16 +33,20 @@ def _made(*command: str) -> Path:
 
 def _finish(command: list[str], shown: str, timeout: int, **options):
     """Runs it to its end; what it says goes to pytest's report, too."""
-    done = subprocess.run(
-        command,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        errors="replace",
-        timeout=timeout,
-        **options,
-    )
+    try:
+        done = subprocess.run(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            timeout=timeout,
+            **options,
+        )
+    except subprocess.TimeoutExpired as error:
+        said = (error.output or b"").decode(errors="replace")
+        raise AssertionError(f"`{shown}` does not end in {timeout} s:\n{said}") from None
     print(f"$ {shown}\n{done.stdout}\nexit code {done.returncode}")
     return done
 
