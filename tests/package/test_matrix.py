@@ -33,10 +33,15 @@ ALWAYS = ("bpy-5.0.1", "blender-5.2")
 NAMES = [name for name in BLENDERS if FULL or name in ALWAYS]
 # What is the same in all of them (`procedural` is not: before 5.0 Voronoi had other points).
 SCENES = ("hero", "glass_box", "textured", "studio")
-# bpy 4.2 crashes when it ends, if any add-on that was disabled had a setting with an update
-# function: `class A(PropertyGroup): x: IntProperty(update=f)`, registered, unregistered, is enough.
+# bpy 4.2 may crash when it ends, once settings with an update function were unregistered: with no
+# more than `class A(PropertyGroup): x: IntProperty(update=f)`, and here after an upgrade.
 ENDS_BADLY = ("bpy-4.2.0",)
-OLDER = {"version": "0.0.1", "says": "The former core of Janus.", "label": "Older"}
+# Of as many letters as ours (see repack.py): 0.0.1, 0.0.10.
+OLDER = {
+    "version": f"0.0.1{'0' * (len(VERSION) - 5)}",
+    "says": "The former core of Janus.",
+    "label": "Older",
+}
 OTHER = {"version": VERSION, "says": "The core in another build", "label": "Other build"}
 ANEW = "Janus was installed anew"  # of what is in use
 
@@ -115,7 +120,7 @@ def upgrade(place: Place, first: dict, extension: Path) -> dict:
 def story(place: Place, upgrade: dict) -> dict:
     """The new one, used."""
     place.add(ROOT / "scenes")
-    return step(place, "story", trace=place.is_binary, disables=True)
+    return step(place, "story", trace=place.is_binary)
 
 
 def read(path: Path) -> np.ndarray:
