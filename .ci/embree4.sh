@@ -13,12 +13,20 @@ chroot=$("$here/chroot.sh" embree4 trixie /usr/bin/ninja \
   build-essential,cmake,ninja-build,ccache,libembree-dev,libglm-dev,libopenexr-dev,libgtest-dev)
 root=
 [ "$(id -u)" = 0 ] || root='sudo -n'
+if ! $root unshare --mount --pid --fork --mount-proc="$chroot/proc" true; then
+  echo "Embree 4: processes here cannot have a /proc of their own" >&2
+  exit 2
+fi
 
-# Only what has changed gets a new date: the build stays incremental.
+exec 9>"$chroot.lock"
+flock 9 # two runs at once: one build
+
+# The sources as they are now, with their dates: the build stays incremental.
 $root mkdir -p "$chroot/janus"
+$root rm -rf "$chroot/janus/core" "$chroot/janus/tests"
 (cd "$here/.." && tar -c --exclude='__pycache__' CMakeLists.txt CMakePresets.json LICENSE \
   addon/blender_manifest.toml core tests/core tests/bench) |
-  $root tar -x --no-same-owner -C "$chroot/janus" # dates are kept: the build stays incremental
+  $root tar -x --no-same-owner -C "$chroot/janus"
 
 # inside COMMANDS. A mount of /proc of its own, which ends with the processes: tests look at their
 # memory there.
