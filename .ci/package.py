@@ -179,11 +179,29 @@ def forget_versions(file: Path) -> None:
             stream.write(struct.pack("<H", version["vna_flags"] | WEAK))
 
 
-def pack_wheel(tree: Path, version: str) -> Path:
-    """Tags and zips the tree."""
-    info = tree / f"janus_core-{version}.dist-info"
-    metadata = (info / "WHEEL").read_text()
-    (info / "WHEEL").write_text(re.sub(r"(?m)^Tag: .*$", f"Tag: {TAG}", metadata))
+def build_version(tree: Path, version: str) -> str:
+    """The version with a digest of the package, such as 0.1.0+3f2a9c41.
+
+    Blender takes wheels of one name and version for the same: who installs another build of it
+    would get the new Python and keep the old core.
+    """
+    digest = hashlib.sha256()
+    for file in sorted(p for p in (tree / "janus_core").rglob("*") if p.is_file()):
+        digest.update(f"{file.relative_to(tree)} {file.stat().st_size}\n".encode())
+        digest.update(file.read_bytes())
+    return f"{version}+{digest.hexdigest()[:8]}"
+
+
+def pack_wheel(tree: Path, version: str, folder: Path = DIST) -> Path:
+    """Tags and zips the tree, whose .dist-info may be of another version."""
+    version = build_version(tree, version)
+    (old,) = tree.glob("*.dist-info")
+    info = old.rename(tree / f"janus_core-{version}.dist-info")
+    for name, key, value in (("WHEEL", "Tag", TAG), ("METADATA", "Version", version)):
+        text, count = re.subn(rf"(?m)^{key}: .*$", f"{key}: {value}", (info / name).read_text())
+        if count != 1:
+            fail(f"{name} of the wheel has {count} lines '{key}:'")
+        (info / name).write_text(text)
     for licence in (ROOT / "addon/licenses").iterdir():
         shutil.copy(licence, info / "licenses")
 
@@ -195,7 +213,7 @@ def pack_wheel(tree: Path, version: str) -> Path:
         rows.append(f"{file.relative_to(tree)},sha256={digest.decode()},{file.stat().st_size}\n")
     record.write_text("".join(rows) + f"{record.relative_to(tree)},,\n")
 
-    wheel = DIST / f"janus_core-{version}-{TAG}.whl"
+    wheel = folder / f"janus_core-{version}-{TAG}.whl"
     files = [file for file in tree.rglob("*") if file.is_file()]
     write_zip(wheel, {str(file.relative_to(tree)): file.read_bytes() for file in files})
     return wheel
@@ -213,8 +231,9 @@ def write_zip(path: Path, content: dict[str, bytes]) -> None:
 # --- The extension --------------------------------------------------------------------------------
 
 
-def pack_extension(wheel: Path, version: str) -> Path:
-    addon = ROOT / "addon"
+def pack_extension(
+    wheel: Path, version: str, addon: Path = ROOT / "addon", folder: Path = DIST
+) -> Path:
     content = {
         str(file.relative_to(addon)): file.read_bytes()
         for file in addon.rglob("*")
@@ -227,7 +246,7 @@ def pack_extension(wheel: Path, version: str) -> Path:
     content["blender_manifest.toml"] = filled.encode()
     content["LICENSE"] = (ROOT / "LICENSE").read_bytes()
     content[f"wheels/{wheel.name}"] = wheel.read_bytes()
-    extension = DIST / f"janus-{version}.zip"
+    extension = folder / f"janus-{version}.zip"
     write_zip(extension, content)
     return extension
 

@@ -8,6 +8,7 @@ registers and can explain itself where the core is missing or does not fit.
 import importlib
 import platform
 import sys
+from pathlib import Path
 
 import bpy
 
@@ -16,6 +17,7 @@ CORE_SERIES = (0, 1)  # major and minor version of janus_core that this add-on s
 OLDEST_SYSTEM = "glibc 2.28 or newer, and libstdc++ of GCC 8 or newer"  # see .ci/package.py
 
 _failure: str | None = None
+_checked = None  # the core that is known to be the one that was installed with this Python
 
 
 class CoreUnavailable(Exception):
@@ -24,10 +26,13 @@ class CoreUnavailable(Exception):
 
 def core():
     """The module janus_core. Raises CoreUnavailable; tries again at each call."""
-    global _failure
+    global _failure, _checked
     try:
         module = importlib.import_module("janus_core")
-        _check_version(module)
+        if module is not _checked:
+            _check_wheel(module)
+            _check_version(module)
+            _checked = module
     except CoreUnavailable as error:
         _failure = str(error)
         raise
@@ -55,13 +60,26 @@ def failure() -> str | None:
     return _failure
 
 
+def _check_wheel(module) -> None:
+    """Where Janus is installed anew, Blender loads its Python again, but a native module that is
+    loaded stays until Blender ends. The loaded one remembers which wheel it came from."""
+    folder = Path(module.__file__).parents[1]
+    wheels = sorted(path.name for path in folder.glob("janus_core-*.dist-info"))
+    loaded = module.__dict__.setdefault("_wheels", wheels)
+    if loaded != wheels:
+        raise CoreUnavailable(
+            "Janus was installed anew while its render core was in use. Restart Blender to render "
+            "with the new one."
+        )
+
+
 def _check_version(module) -> None:
     version = str(getattr(module, "__version__", "unknown"))
     wanted = ".".join(map(str, CORE_SERIES))
     if version.split(".")[:2] != wanted.split("."):
         raise CoreUnavailable(
             f"Janus needs its render core in version {wanted}, but found {version}. "
-            "Reinstall the Janus extension and restart Blender."
+            "Restart Blender; if that does not help, reinstall the Janus extension."
         )
 
 

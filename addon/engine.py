@@ -46,6 +46,8 @@ class JanusRenderEngine(bpy.types.RenderEngine):
             final.render_layer(self, depsgraph, log, self._persistent)
         except (report.RenderRefused, bridge.CoreUnavailable) as error:
             log.error(str(error))
+        except KeyboardInterrupt:  # in the bpy module, where Ctrl-C is Python's
+            log.error("Stopped by Ctrl-C")
         except Exception as error:  # everything else is ours to fix: show where it happened
             traceback.print_exc()
             log.error(f"{type(error).__name__}: {error}")

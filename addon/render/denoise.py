@@ -246,10 +246,13 @@ def _find() -> tuple[ctypes.CDLL | None, str | None]:
 
 
 def _candidates() -> list[tuple[str, int]]:
-    """(name, how to load it): Blender's own file, or one of the system that Blender has loaded."""
+    """(name, how to load it): what Blender has loaded, also from the system, or its own file.
+
+    In this order: some Blenders (4.2.0) come with copies of the file under several names.
+    """
     found = [(str(path), ctypes.DEFAULT_MODE) for path in library_files()]
     if hasattr(os, "RTLD_NOLOAD") and sys.platform != "darwin":
-        found.append(("libOpenImageDenoise.so.2", os.RTLD_NOLOAD | os.RTLD_NOW))
+        found.insert(0, ("libOpenImageDenoise.so.2", os.RTLD_NOLOAD | os.RTLD_NOW))
     return found
 
 

@@ -90,7 +90,7 @@ def _render(engine, depsgraph, frame, result, log, persistent) -> dict:
     try:
         cancelled = _run(engine, session, settings, result)
         _hand_over(session, depsgraph, result)
-    except Exception:
+    except (Exception, KeyboardInterrupt):
         _save_what_there_is(session, frame, result, log)
         raise
     started = time.perf_counter()

@@ -43,11 +43,21 @@ LIGHT_PATHS = (
 )
 
 
+def folders_can_be_named() -> bool:
+    """The first releases of Blender 4.2 look for presets of add-ons nowhere but in old places."""
+    return hasattr(bpy.utils, "register_preset_path")
+
+
 class Presets(PresetPanel):
     bl_space_type = "PROPERTIES"
     bl_region_type = "HEADER"
     COMPAT_ENGINES = {ENGINE}
     preset_operator = "script.execute_preset"
+
+    def path_menu(self, searchpaths, *rest, **how):
+        if not folders_can_be_named():
+            searchpaths = [*searchpaths, str(FOLDER / "presets" / self.preset_subdir)]
+        bpy.types.Menu.path_menu(self, searchpaths, *rest, **how)
 
 
 class JANUS_PT_sampling_presets(Presets, bpy.types.Panel):
@@ -113,8 +123,10 @@ CLASSES = (
 
 
 def register():
-    bpy.utils.register_preset_path(str(FOLDER))
+    if folders_can_be_named():
+        bpy.utils.register_preset_path(str(FOLDER))
 
 
 def unregister():
-    bpy.utils.unregister_preset_path(str(FOLDER))
+    if folders_can_be_named():
+        bpy.utils.unregister_preset_path(str(FOLDER))

@@ -43,6 +43,19 @@ def test_pixels_before_an_error_are_saved_linear(scene, fake_core, tmp_path):
     assert result_pixels()[0, 0] == pytest.approx(fake_core.color)
 
 
+def test_ctrl_c_in_the_module_fails_the_render(scene, fake_core, tmp_path):
+    """Blender would swallow the exception, write a black picture and go on."""
+
+    def press(session):
+        if session.samples == 2:
+            raise KeyboardInterrupt
+
+    fake_core.script = press
+    with pytest.raises(RuntimeError, match="Stopped by Ctrl-C"):
+        bpy.ops.render.render(write_still=True)
+    assert [path.name for path in tmp_path.iterdir()] == ["out_partial.exr"]
+
+
 def test_no_partial_file_without_pixels(scene, fake_core, tmp_path):
     fake_core.script = fail_after(0)
     with pytest.raises(RuntimeError, match="the core broke"):
@@ -157,12 +170,36 @@ def test_other_core_version_is_refused(addon, monkeypatch):
     from types import SimpleNamespace
 
     bridge = part("bridge")
-    monkeypatch.setitem(sys.modules, "janus_core", SimpleNamespace(__version__="0.2.0"))
+
+    def found(version):
+        return SimpleNamespace(__version__=version, __file__="/janus_core/__init__.py")
+
+    monkeypatch.setitem(sys.modules, "janus_core", found("0.2.0"))
     with pytest.raises(bridge.CoreUnavailable, match="found 0.2.0"):
         bridge.core()
-    monkeypatch.setitem(sys.modules, "janus_core", SimpleNamespace(__version__="0.1.7"))
+    monkeypatch.setitem(sys.modules, "janus_core", found("0.1.7"))
     assert bridge.core().__version__ == "0.1.7"
     assert bridge.failure() is None
+
+
+def test_a_core_that_was_replaced_while_loaded_is_refused(addon, monkeypatch, tmp_path):
+    """Blender swaps the wheel, but the native module stays; the add-on's Python is loaded anew."""
+    from types import ModuleType
+
+    bridge = part("bridge")
+    wheel = tmp_path / "janus_core-0.1.0+aaaaaaaa.dist-info"
+    wheel.mkdir()
+    module = ModuleType("janus_core")
+    module.__version__ = "0.1.0"
+    module.__file__ = str(tmp_path / "janus_core" / "__init__.py")
+    monkeypatch.setitem(sys.modules, "janus_core", module)
+    monkeypatch.setattr(bridge, "_checked", None)
+    assert bridge.core() is module
+    wheel.rename(tmp_path / "janus_core-0.1.0+bbbbbbbb.dist-info")
+    assert bridge.core() is module, "Python and core still fit"
+    bridge._checked = None  # as in a module that was just loaded
+    with pytest.raises(bridge.CoreUnavailable, match="Restart Blender"):
+        bridge.core()
 
 
 def test_no_camera_object(scene, fake_core):

@@ -2,6 +2,7 @@
 """Presets: those that come along, and the user's."""
 
 from pathlib import Path
+from unittest.mock import MagicMock
 
 import bpy
 import pytest
@@ -9,7 +10,10 @@ from conftest import part
 
 
 def shipped(kind: str = "light_paths") -> list[str]:
-    folders = bpy.utils.preset_paths(f"janus/{kind}")
+    presets = part("ui.presets")
+    folders = [presets.FOLDER / "presets/janus" / kind]
+    if presets.folders_can_be_named():
+        folders = bpy.utils.preset_paths(f"janus/{kind}")
     return sorted(str(file) for folder in folders for file in Path(folder).glob("*.py"))
 
 
@@ -75,3 +79,26 @@ def test_a_preset_of_ones_own_comes_back(scene, kind, tmp_path, monkeypatch):
         janus.property_unset(name)
     exec(compile(file.read_text(), str(file), "exec"), {"bpy": bpy})
     assert {name: getattr(janus, name) for name in names} == changed
+
+
+@pytest.fixture
+def first_of_4_2(scene, monkeypatch):
+    """A Blender to which no folder of presets can be named, such as 4.2.0."""
+    presets = part("ui.presets")
+    presets.unregister()
+    with monkeypatch.context() as patch:
+        for name in ("register_preset_path", "unregister_preset_path"):
+            patch.delattr(bpy.utils, name, raising=False)
+        presets.register()
+        yield presets
+        presets.unregister()
+    presets.register()
+
+
+def test_the_first_4_2_offers_those_that_come_along(first_of_4_2):
+    panel = MagicMock(preset_subdir="janus/light_paths")
+    names = {"display_name": lambda name: Path(name).stem}
+    first_of_4_2.Presets.path_menu(panel, [], "script.execute_preset", **names)
+    row = panel.layout.column.return_value.row.return_value
+    offered = {call.kwargs["text"] for call in row.operator.call_args_list}
+    assert {"Default", "Direct_Light", "Full_Global_Illumination"} <= offered

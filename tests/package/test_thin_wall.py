@@ -5,7 +5,7 @@ import shutil
 import sys
 
 import pytest
-from conftest import MODULE, ROOT, Blender
+from blenders import MODULE, ROOT, Blender
 
 sys.path.insert(0, str(ROOT / "tests"))
 from images import closure_grid, test_closures  # noqa: E402

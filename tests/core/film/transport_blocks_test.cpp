@@ -3,6 +3,8 @@
 // Partitions of a projector: every pixel lies in one block, whatever made the pilot choose them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "janus/film/transport_sums.h"
 #include "support/statistics.h"
 

@@ -3,6 +3,7 @@
 // Counts that are chosen: from known integrals, and for scenes whose best technique is known.
 #include "janus/integrator/adaptive_counts.h"
 
+#include <algorithm>
 #include <random>
 
 #include "support/pictures.h"

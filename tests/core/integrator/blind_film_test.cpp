@@ -2,6 +2,8 @@
 //
 // Outside the field of view of a fisheye the picture is black and, as in Cycles, opaque, though
 // there is a world all around and the film is transparent.
+#include <algorithm>
+
 #include "support/pictures.h"
 #include "support/scene_kit.h"
 

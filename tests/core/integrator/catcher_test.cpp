@@ -3,6 +3,7 @@
 // Shadow catchers: what the rest of a scene does to their light, and to the footage behind them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "support/pictures.h"

@@ -3,6 +3,8 @@
 // Passes of data of a pane before a wall, both straight ahead: all is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "janus/session/session.h"
 #include "support/scene_kit.h"
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "janus/shading/fresnel.h"
 #include "janus/shading/layers.h"
 #include "shading/lobes.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "janus/shading/node_types.h"
 #include "shading/compiled.h"
 
