@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of the same scenes by Cycles, and captures of them for Janus.
 
-`python both.py MODULE FOLDER [CASE...]`, or `blender -b -P both.py -- MODULE ...`, writes FOLDER/CASE.npz (a capture) and FOLDER/CASE-N.exr
-(Cycles, with seed N, 1 to SEEDS) for each of the module's CASES. One process makes them all, since
-starting Blender takes longer than such a picture. A module of cases has
+`python both.py MODULE FOLDER [CASE...]`, or `blender -b -P both.py -- MODULE ...`, writes
+FOLDER/CASE.npz (a capture) and FOLDER/CASE-N.exr (Cycles, with seed N, 1 to SEEDS) for each of the
+module's CASES. One process makes them all, since starting Blender takes longer than such a picture.
+A module of cases has
 
 - CASES, the names, and SEEDS, how many pictures by Cycles;
 - build(case) -> scene: the scene in an empty file, with Cycles' settings and number of samples;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Principled's thin walls beside Cycles': among the Blenders of the tests only a real one has them."""
+"""Principled's thin walls beside Cycles', which only Blender 5.2 has."""
 
 import shutil
 import sys
