@@ -109,9 +109,6 @@ float light_density(const Lobe& lobe, vec3 wo, vec3 wi, vec3 n_light) {
 }
 
 LobeEval evaluate_reflection(const Lobe& lobe, const Directions& d, vec3 n, vec3 n_light) {
-  if (lobe.type == LobeType::Refraction) {
-    return {};
-  }
   const vec3 h = normalize(d.wo + d.wi);
   const float cos_h = dot(d.wo, h);
   const float eta = far_index(lobe, d.wo_ng);
@@ -192,6 +189,20 @@ LobeEval evaluate_refraction(const Lobe& lobe, const Directions& d, vec3 n, vec3
   return out;
 }
 
+LobeEval evaluate_event(const Lobe& lobe, const Directions& d, vec3 n, vec3 n_light) {
+  switch (lobe.type) {
+    case LobeType::AshikhminShirley:
+      return evaluate_ashikhmin_shirley(lobe, d, n, n_light);
+    case LobeType::Refraction:
+      return d.same_side() ? LobeEval{} : evaluate_refraction(lobe, d, n, n_light);
+    case LobeType::MirroredGlossy:
+      return d.same_side() ? LobeEval{} : evaluate_mirrored(lobe, d, n, n_light);
+    default:
+      return d.same_side() ? evaluate_reflection(lobe, d, n, n_light)
+                           : evaluate_refraction(lobe, d, n, n_light);
+  }
+}
+
 }  // namespace
 
 Rgb reflectance(const Lobe& lobe, float cos) {
@@ -257,12 +268,7 @@ LobeEval evaluate_facets(const Lobe& lobe, vec3 ng, const Directions& d) {
   }
   const vec3 n = seen_normal(lobe, ng, d.wo, d.wo_ng);
   const vec3 n_light = seen_normal(lobe, ng, d.wi, d.wi_ng);
-  LobeEval out = lobe.type == LobeType::AshikhminShirley
-                     ? evaluate_ashikhmin_shirley(lobe, d, n, n_light)
-                 : lobe.type == LobeType::MirroredGlossy
-                     ? (d.same_side() ? LobeEval{} : evaluate_mirrored(lobe, d, n, n_light))
-                 : d.same_side() ? evaluate_reflection(lobe, d, n, n_light)
-                                 : evaluate_refraction(lobe, d, n, n_light);
+  LobeEval out = evaluate_event(lobe, d, n, n_light);
   if (needs_defence(lobe, ng)) {
     const float share = defensive_share(lobe, !d.same_side());
     out.pdf_importance += kDefensive * (share * std::abs(d.wo_ng) * kInvPi - out.pdf_importance);

@@ -16,10 +16,11 @@ from mistakes.merges import MERGES
 from mistakes.motion import MOTION_AND_LINKING
 from mistakes.paths import PATHS
 from mistakes.specular_walks import SPECULAR_WALKS
+from mistakes.thin_walls import THIN_WALLS
 from mistakes.transport import TRANSPORT
 from mistakes.values import VALUES
 from mistakes.views import VIEWS
 
 MISTAKES = DENSITIES + VALUES + PATHS + FILM_AND_SAMPLES + VIEWS + CLEAR + MERGES + SPECULAR_WALKS
 MISTAKES += LECTURE_MADE_VISIBLE + DATA_AND_COMMITS + MOTION_AND_LINKING + CATCHERS + FIBERS
-MISTAKES += BELOW + TRANSPORT + BY_PATH
+MISTAKES += BELOW + TRANSPORT + BY_PATH + THIN_WALLS
