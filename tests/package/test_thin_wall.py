@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Principled's thin walls beside Cycles', which only Blender 5.2 has."""
 
+import os
 import shutil
 import sys
 
@@ -10,6 +11,8 @@ from blenders import MODULE, ROOT, Blender
 sys.path.insert(0, str(ROOT / "tests"))
 from images import closure_grid, test_closures  # noqa: E402
 from images.conftest import pictures_in  # noqa: E402
+
+CHOICES = ("JANUS_FULL", "JANUS_CELLS")  # of cells
 
 
 @pytest.fixture(scope="module")
@@ -24,6 +27,7 @@ def pictures(installed: Blender):
     done = installed.run(
         *("--addons", MODULE, "-P", installed.inside("tests/images/both.py"), "--"),
         *("closure_grid", installed.inside(""), closure_grid.THIN_WALLS),
+        environment=tuple(f"{name}={os.environ[name]}" for name in CHOICES if name in os.environ),
         timeout=900,
     )
     assert done.returncode == 0, done.stdout
