@@ -111,9 +111,7 @@ def first(place: Place, older: Path) -> dict:
 @pytest.fixture(scope="session")
 def upgrade(place: Place, first: dict, extension: Path) -> dict:
     """The new one installed over it, in a process in which the older has rendered."""
-    return step(
-        place, "upgrade", place.add(extension), error="Janus was installed anew", disables=True
-    )
+    return step(place, "upgrade", place.add(extension), error=ANEW, disables=True)
 
 
 @pytest.fixture(scope="session")

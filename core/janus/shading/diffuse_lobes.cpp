@@ -117,8 +117,8 @@ LobeEval evaluate_diffuse(const Lobe& lobe, vec3 ng, const Directions& d) {
     default:
       out.f *= out.pdf_radiance;
   }
-  // Velvet is glossy for Cycles. What it lets through it dims where it joins light, not where light
-  // is found by chance.
+  // Velvet is glossy for Cycles, and what comes through a surface is dimmed by it only where next
+  // event estimation finds the light.
   if (lobe.bumped && lobe.type != LobeType::Velvet && lobe.type != LobeType::RoughTranslucent) {
     out.f *= lit_bumps(n, d.ns, d.wi);
   }

@@ -197,7 +197,7 @@ void add(const ClosureArguments& a, ShadingResult& out) {
 }
 
 void check(const NodeReader& node) {
-  const bool thin = !node.link("Thin Wall") && node.number("Thin Wall") >= 1.0f;
+  const bool thin = !node.link("Thin Wall") && std::abs(node.number("Thin Wall")) >= 1.0f;
   if (!thin && node.property("subsurface_method", "") == "BURLEY" &&
       (node.link("Subsurface Weight") || node.number("Subsurface Weight") > 0.0f)) {
     node.warn("the subsurface method BURLEY is not supported; a random walk is used");
