@@ -133,7 +133,9 @@ class Viewport:
         if self._session is None:
             return ""
         samples = self._shown if self._finest else 0
-        return f"Sample {samples}/{self._settings['samples']}"
+        # As in Cycles: with a noise threshold, fewer samples than asked for may be all there are.
+        done = "Rendering Done | " if self._finished and not self._obsolete else ""
+        return f"{done}Sample {samples}/{self._settings['samples']}"
 
     @property
     def _obsolete(self) -> bool:

@@ -112,7 +112,7 @@ def test_pixels_as_large_as_the_scene_wants(world_of_things, core):
         assert eye.wait().shape[:2] == (HEIGHT // int(size), WIDTH // int(size))
         assert eye.viewport.picture.rectangle == (0, 0, WIDTH, HEIGHT)
         samples = bpy.context.scene.janus.preview_samples
-        assert eye.viewport.status == f"Sample {samples}/{samples}"
+        assert eye.viewport.status == f"Rendering Done | Sample {samples}/{samples}"
 
 
 def test_a_draft_that_ends_between_two_draws_is_seen(world_of_things, core):
@@ -244,9 +244,24 @@ def test_settings_start_again(world_of_things, core):
     few = eye.wait()
     world_of_things.janus.preview_samples = 5
     many = eye.wait()
-    assert eye.viewport.status == "Sample 5/5"
+    assert eye.viewport.status == "Rendering Done | Sample 5/5"
     assert not np.array_equal(few, many)
     assert "set_mesh" in eye.sent() and len(eye.spies) == 1
+
+
+def test_says_that_it_is_done(world_of_things, core):
+    settings = world_of_things.janus
+    settings.preview_samples = 1024
+    settings.use_preview_adaptive_sampling = True
+    settings.preview_adaptive_threshold = 1.0
+    eye = Eye(core)
+    eye.wait()
+    done, samples = eye.viewport.status.split(" | Sample ")
+    assert done == "Rendering Done" and 0 < int(samples.split("/")[0]) < 1024
+    settings.preview_samples = 2048
+    eye.look()
+    eye.viewport.advance()
+    assert not eye.viewport.status.startswith("Rendering Done")
 
 
 def test_what_is_refused_leaves_the_picture(world_of_things, core, monkeypatch):
