@@ -65,6 +65,11 @@ def unavailable() -> str | None:
     return _find()[1]
 
 
+def alpha_is_noisy(film_transparent: bool, counts: dict[str, int]) -> bool:
+    """Alpha on shadow catchers is what is left of light; `counts`: the scene's, of the core."""
+    return film_transparent and counts.get("shadow_catchers", 0) > 0
+
+
 def denoise(
     color: np.ndarray,
     albedo: np.ndarray | None = None,
@@ -72,9 +77,12 @@ def denoise(
     prefilter: str = "ACCURATE",
     quality: str = "HIGH",
     threads: int = 0,
+    alpha: bool = False,
     cancel=None,
 ) -> np.ndarray:
-    """The picture without noise: a new array with the shape of `color`, a fourth channel as it is.
+    """The picture without noise: a new array with the shape of `color`.
+
+    A fourth channel stays as it is, unless `alpha` says that it is noisy, too.
 
     `color` is float32[H, W, 3 or 4], linear, finite, of any brightness. `albedo` from 0 to 1 and
     `normal` from -1 to 1 are float32[H, W, 3] and tell detail from noise; a normal needs an
@@ -82,7 +90,7 @@ def denoise(
     means all. `cancel` is called by this thread every POLL_SECONDS, true ends it.
     Raises DenoiseFailed, DenoiseCancelled, and ValueError for arrays that do not fit together.
     """
-    task = DenoiseTask(color, albedo, normal, prefilter, quality, threads)
+    task = DenoiseTask(color, albedo, normal, prefilter, quality, threads, alpha)
     try:
         while not task.wait(POLL_SECONDS):
             if cancel and cancel():
@@ -96,7 +104,14 @@ class DenoiseTask:
     """The same in the background: for who cannot wait. Arguments and errors are denoise()'s."""
 
     def __init__(
-        self, color, albedo=None, normal=None, prefilter="ACCURATE", quality="HIGH", threads=0
+        self,
+        color,
+        albedo=None,
+        normal=None,
+        prefilter="ACCURATE",
+        quality="HIGH",
+        threads=0,
+        alpha=False,
     ):
         library, reason = _find()
         if library is None:
@@ -106,11 +121,13 @@ class DenoiseTask:
             for name, pixels in (("color", color), ("albedo", albedo), ("normal", normal))
             if pixels is not None
         }
-        _check_shapes(images)
+        _check_shapes(images, alpha)
         self._size = images["color"].shape[:2]
         images = {name: _grown(pixels) for name, pixels in images.items()}
         self._stop = threading.Event()
         executor = ThreadPoolExecutor(1, "denoise")
+        if alpha:
+            images["alpha"] = np.repeat(images["color"][..., 3:], 3, axis=2)
         arguments = (library, images, prefilter, QUALITIES[quality], threads, self._stop)
         self._future = executor.submit(_work, *arguments)
         executor.shutdown(wait=False)
@@ -128,10 +145,12 @@ class DenoiseTask:
         self._stop.set()
 
 
-def _check_shapes(images: dict[str, np.ndarray]) -> None:
+def _check_shapes(images: dict[str, np.ndarray], alpha: bool) -> None:
     color = images["color"]
     if color.ndim != 3 or color.shape[2] not in (3, 4) or color.size == 0:
         raise ValueError(f"a picture is [H, W, 3 or 4], not {list(color.shape)}")
+    if alpha and color.shape[2] != 4:
+        raise ValueError(f"a picture of {list(color.shape)} has no alpha")
     for name, pixels in images.items():
         if name != "color" and pixels.shape != (*color.shape[:2], 3):
             raise ValueError(f"{name} is {list(pixels.shape)}, the picture {list(color.shape)}")
@@ -147,18 +166,23 @@ def _grown(pixels: np.ndarray) -> np.ndarray:
 
 
 def _work(library, images, prefilter, quality, threads, stop) -> np.ndarray:
+    pictures = {name: images[name] for name in ("color", "alpha") if name in images}
     with _device(library, threads) as device:
-        guides = {name: pixels for name, pixels in images.items() if name != "color"}
+        guides = {name: pixels for name, pixels in images.items() if name not in pictures}
         if prefilter == "ACCURATE":
             for name, pixels in guides.items():
                 guides[name] = np.empty_like(pixels)
                 found = {name: pixels, "output": guides[name]}
                 _execute(library, device, found, {}, quality, stop)
-        result = images["color"].copy()  # with the alpha, which the filter does not touch
         flags = {"hdr": True, "cleanAux": bool(guides) and prefilter != "FAST"}
-        found = {"color": images["color"], **guides, "output": result}
-        _execute(library, device, found, flags, quality, stop)
-    return result
+        results = {}
+        for name, pixels in pictures.items():
+            results[name] = pixels.copy()  # with a fourth channel, which the filter does not touch
+            found = {"color": pixels, **guides, "output": results[name]}
+            _execute(library, device, found, flags, quality, stop)
+    if "alpha" in results:
+        results["color"][..., 3] = np.clip(results["alpha"][..., 0], 0.0, 1.0)
+    return results["color"]
 
 
 @contextlib.contextmanager

@@ -96,8 +96,8 @@ def _render(engine, depsgraph, frame, result, log, persistent) -> dict:
     started = time.perf_counter()
     denoised = denoises(depsgraph.scene_eval, depsgraph.view_layer_eval) and not cancelled
     if denoised:
-        catches = settings.film_transparent and stats["counts"].get("shadow_catchers", 0) > 0
-        cancelled = _denoise(engine, session, settings, depsgraph, result, log, catches)
+        alpha = denoise.alpha_is_noisy(settings.film_transparent, stats["counts"])
+        cancelled = _denoise(engine, session, settings, depsgraph, result, log, alpha)
     stats |= session.stats()
     stats |= {
         "denoise_seconds": time.perf_counter() - started if denoised else 0.0,
@@ -209,9 +209,9 @@ def _hand_over(session, depsgraph, result) -> None:
     result.show()
 
 
-def _denoise(engine, session, settings, depsgraph, result, log, catches) -> bool:
-    """Puts the picture without noise into Combined; `catches`: its alpha, too. Returns whether the
-    user stopped that.
+def _denoise(engine, session, settings, depsgraph, result, log, alpha) -> bool:
+    """Puts the picture without noise into Combined; `alpha`: that, too. Returns whether the user
+    stopped that.
 
     Blender has the noisy picture already, and keeps it if this is stopped or cannot be done.
     """
@@ -222,13 +222,11 @@ def _denoise(engine, session, settings, depsgraph, result, log, catches) -> bool
         "prefilter": cycles_settings.value(depsgraph.scene_eval, "denoising_prefilter"),
         "quality": cycles_settings.value(depsgraph.scene_eval, "denoising_quality"),
         "threads": settings.threads,
+        "alpha": alpha,
         "cancel": engine.test_break,
     }
     try:
         pixels = denoise.denoise(session.snapshot(COMBINED.key), **arguments)
-        if catches:  # then alpha is what is left of light, with its noise
-            alpha = np.repeat(pixels[..., 3:], 3, axis=2)
-            pixels[..., 3] = np.clip(denoise.denoise(alpha, **arguments)[..., 0], 0.0, 1.0)
     except denoise.DenoiseCancelled:
         log.info("Denoising was stopped by the user: the picture is as it was rendered")
         return True

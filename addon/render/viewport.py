@@ -15,6 +15,7 @@ from .. import report
 from ..sync.cache import SceneCache, generation, read_changes
 from ..sync.difference import DifferenceBuilder
 from ..sync.scene_sync import sync_objects
+from .denoise import alpha_is_noisy
 from .viewport_denoise import PictureDenoiser
 
 DIVIDERS = (1, 2, 4, 8)  # pixels of a draft are so many times as large
@@ -54,6 +55,7 @@ class Viewport:
         self._divider = 1  # of its pixels
         self._is_draft = False  # is it the first after a change?
         self._target = 0  # samples of the session when it ends
+        self._noisy_alpha = False  # of the session's picture
         self._shown = 0  # samples of the session in the picture
         self._next_picture = 0.0
         self._seconds = None  # that the last session took for a sample of a pixel
@@ -196,6 +198,7 @@ class Viewport:
         session = self._core.RenderSession(self._scene, self._core.RenderSettings(**settings))
         session.start()
         self._session, self._divider, self._target = session, divider, settings["samples"]
+        self._noisy_alpha = alpha_is_noisy(settings["film_transparent"], self._scene.counts)
         self._rectangle = self._view.rectangle
         self._finished, self._shown, self._next_picture = False, 0, 0.0
         end = self._now() + SHORT_WAIT
@@ -218,7 +221,7 @@ class Viewport:
         if fresh and (ended or now >= self._next_picture):
             pixels = self._session.snapshot()
             last = ended or samples == self._target
-            fresh = self._denoiser.add(self._session, pixels, samples, last)
+            fresh = self._denoiser.add(self._session, pixels, samples, last, self._noisy_alpha)
             if fresh:
                 self.picture = Picture(pixels, self._rectangle)
             self._shown = samples

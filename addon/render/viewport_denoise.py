@@ -35,8 +35,11 @@ class PictureDenoiser:
             self._task.cancel()
             self._task = None
 
-    def add(self, session, pixels: np.ndarray, samples: int, last: bool) -> bool:
-        """There is another picture; true if it is to be shown, noisy as it is."""
+    def add(self, session, pixels: np.ndarray, samples: int, last: bool, alpha=False) -> bool:
+        """There is another picture; true if it is to be shown, noisy as it is.
+
+        `last`: of the session; `alpha`: it is noisy, too.
+        """
         if self._denoising is None or samples < self._denoising["start_sample"]:
             return True
         if last and self._task is not None:
@@ -49,6 +52,7 @@ class PictureDenoiser:
                 **guides,
                 prefilter=self._denoising["prefilter"],
                 quality=self._denoising["quality"],
+                alpha=alpha,
             )
             self._started = self._now()
         return not self._clean

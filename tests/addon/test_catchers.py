@@ -107,8 +107,8 @@ def test_f12_shows_the_shadow(shadow, layer):
 def test_denoising_is_for_the_shadow_in_alpha_too(shadow, layer, monkeypatch):
     seen = []
 
-    def denoise(color, **_):
-        seen.append(color)
+    def denoise(color, alpha, **_):
+        seen.append(alpha)
         return 0.5 * color
 
     monkeypatch.setattr(part("render.denoise"), "denoise", denoise)
@@ -121,11 +121,13 @@ def test_denoising_is_for_the_shadow_in_alpha_too(shadow, layer, monkeypatch):
     finally:
         final.keep_passes_of.clear()
         final.kept_passes.clear()
-    assert [pixels.shape[2] for pixels in seen] == [4, 3]
-    assert np.allclose(passes["Combined"], 0.25 * passes["Noisy Image"])
+    assert np.allclose(passes["Combined"], 0.5 * passes["Noisy Image"])
     shadow.objects["Floor"].is_shadow_catcher = False
     bpy.ops.render.render()
-    assert len(seen) == 3
+    shadow.objects["Floor"].is_shadow_catcher = True
+    shadow.render.film_transparent = False
+    bpy.ops.render.render()
+    assert seen == [True, False, False]
 
 
 def test_viewports_show_the_shadow_and_follow(shadow, core):
@@ -139,3 +141,38 @@ def test_viewports_show_the_shadow_and_follow(shadow, core):
         shadow.objects["Floor"].is_shadow_catcher = False
     picture = eye.wait()
     assert picture[0, 0, 0] > 0.0 and picture[0, 0, 3] == 1.0
+
+
+def test_viewports_denoise_the_shadow_in_alpha(shadow, core, monkeypatch):
+    from viewport_kit import Eye
+
+    tasks = []
+
+    class Task:
+        """Darkens alpha, if it is asked to denoise that."""
+
+        def __init__(self, pixels, alpha, **_):
+            tasks.append(alpha)
+            self._pixels = pixels * (1.0, 1.0, 1.0, 0.5 if alpha else 1.0)
+
+        def wait(self, seconds):
+            return True
+
+        def result(self):
+            return self._pixels
+
+        def cancel(self):
+            pass
+
+    denoise = part("render.denoise")
+    monkeypatch.setattr(denoise, "DenoiseTask", Task)
+    monkeypatch.setattr(denoise, "unavailable", lambda: None)
+    eye = Eye(core)
+    noisy = eye.wait()
+    shadow.janus.use_preview_denoising = True
+    assert np.allclose(eye.wait()[..., 3], 0.5 * noisy[..., 3], atol=0.02)
+    assert set(tasks) == {True}
+    tasks.clear()
+    shadow.render.film_transparent = False
+    eye.wait()
+    assert set(tasks) == {False}

@@ -144,6 +144,20 @@ def test_alpha_is_left_as_it_is(denoise):
     assert np.array_equal(result[..., :3], denoise.denoise(noisy[..., :3]))
 
 
+def test_alpha_of_noise_is_denoised_like_a_picture(denoise):
+    clean = ramps()
+    clean /= clean.max()
+    color, grey = grain(clean), grain(clean[..., :1].repeat(3, axis=2))
+    noisy = np.concatenate([color, grey[..., :1]], axis=2)
+    result = denoise.denoise(noisy, alpha=True)
+    assert np.array_equal(result[..., :3], denoise.denoise(color))
+    alone = denoise.denoise(noisy[..., 3:].repeat(3, axis=2))
+    assert np.array_equal(result[..., 3], np.clip(alone[..., 0], 0.0, 1.0))
+    assert error(result[..., 3:], clean[..., :1]) < 0.5 * error(noisy[..., 3:], clean[..., :1])
+    with pytest.raises(ValueError, match="no alpha"):
+        denoise.denoise(color, alpha=True)
+
+
 def test_guides_keep_detail(denoise):
     """Noise is stronger than the pattern: only the albedo tells."""
     albedo, normal = pattern(), upwards()

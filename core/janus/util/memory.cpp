@@ -47,8 +47,8 @@ size_t physical_memory() {
 
 bool has_memory(size_t bytes) {
 #ifdef __unix__
-  // Not by way of the heap: that touches a page, and a sanitizer's heap marks every byte, which costs
-  // some 50 ms for each probe of a commit.
+  // Not by way of the heap: that touches a page, and a sanitizer's heap marks every byte, which
+  // costs some 50 ms for each probe of a commit.
   void* probe = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   return probe != MAP_FAILED && munmap(probe, bytes) == 0;
 #else
