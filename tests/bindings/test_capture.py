@@ -9,7 +9,7 @@ import zipfile
 import janus_core
 import numpy as np
 import pytest
-from janus_core import capture, exr
+from janus_core import capture, cli, exr
 
 from .conftest import PLANE, SETTINGS, fill, render, sky, translation
 
@@ -316,6 +316,27 @@ def test_exit_codes(captured, tmp_path):
     assert blind.returncode == 3
     assert "camera" in blind.stderr and "Traceback" not in blind.stderr
     assert not out.exists()
+
+
+@pytest.mark.parametrize("reason", ["", "not enough memory for a picture"])
+@pytest.mark.parametrize("name", ["_run", "_render"])
+def test_command_without_memory(captured, tmp_path, monkeypatch, capsys, name, reason):
+    """Nowhere a traceback; what has been rendered until then is written."""
+    path, _ = captured
+    out, stats = tmp_path / "out.exr", tmp_path / "stats.json"
+
+    def fail(*arguments):
+        if name == "_run":
+            raise MemoryError(reason)
+        render(*arguments)
+        return MemoryError(reason)
+
+    render = cli._render
+    monkeypatch.setattr(cli, name, fail)
+    assert cli.main([str(path), "-q", "-o", str(out), "--stats", str(stats)]) == cli.FAILED
+    said = capsys.readouterr().err
+    assert ("out of memory" if name == "_run" else "rendering failed") in said and reason in said
+    assert out.exists() == stats.exists() == (name == "_render")
 
 
 def test_exr_round_trip(tmp_path):

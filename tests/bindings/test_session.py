@@ -139,6 +139,17 @@ def test_python_runs_while_waiting(builder):
     thread.join()
 
 
+@pytest.mark.parametrize("seconds", [float("nan"), float("-inf"), -1.0, 0.0])
+def test_waiting_for_no_time(builder, seconds):
+    session = endless(builder.commit())
+    session.start()
+    before = time.monotonic()
+    assert session.wait(seconds) is False
+    assert time.monotonic() - before < 5.0  # and not for ever
+    session.cancel()
+    assert session.wait(float("inf")) is True
+
+
 def test_session_keeps_its_scene(builder):
     scene = builder.commit()
     session = endless(scene)

@@ -41,11 +41,11 @@ std::unique_ptr<RenderSession> rendered(const std::shared_ptr<const Scene>& scen
 
 // The mean of each channel of the matte picture, of its alpha and of the factor.
 std::vector<Mean> parts(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
-                        int seeds = 12) {
+                        int count = seeds()) {
   settings.shadow_catcher = true;
   settings.seed += 1000 * (static_cast<uint32_t>(settings.integrator) + 1);
   std::vector<Mean> means(7);
-  for (int i = 0; i < seeds; ++i, ++settings.seed) {
+  for (int i = 0; i < count; ++i, ++settings.seed) {
     const auto session = rendered(scene, settings);
     const Image matte = session->snapshot(), factor = session->snapshot(kFactor);
     std::vector<double> sums(7);

@@ -48,10 +48,11 @@ RenderSettings picture(IntegratorType integrator, int samples, const Film& film)
 struct Seen {
   Mean light, alpha;
 };
-Seen seen(const std::shared_ptr<const Scene>& scene, RenderSettings settings, int seeds = 6) {
+Seen seen(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
+          int count = seeds(6)) {
   Seen means;
   settings.seed += 1000 * (static_cast<uint32_t>(settings.integrator) + 1);
-  for (int i = 0; i < seeds; ++i, ++settings.seed) {
+  for (int i = 0; i < count; ++i, ++settings.seed) {
     const Image image = render(scene, settings);
     double light = 0.0, alpha = 0.0;
     for (size_t p = 0; p < image.pixels.size(); p += 4) {

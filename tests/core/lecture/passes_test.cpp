@@ -30,11 +30,11 @@ RenderSettings with_expressions(RenderSettings settings, const std::vector<std::
 
 // The means of a pass of every seed, by name.
 std::map<std::string, Mean> means(const std::shared_ptr<const Scene>& scene,
-                                  RenderSettings settings, int seeds = 12) {
+                                  RenderSettings settings, int count = seeds()) {
   std::map<std::string, Mean> sums;
   settings.seed += 1000 * (static_cast<uint32_t>(settings.integrator) + 1) +
                    10000 * static_cast<uint32_t>(settings.connection_mode);
-  for (int i = 0; i < seeds; ++i, ++settings.seed) {
+  for (int i = 0; i < count; ++i, ++settings.seed) {
     for (const auto& [name, image] : render_all(scene, settings)) {
       double sum = 0.0;
       for (size_t p = 0; p < image.pixels.size(); p += image.channels) {

@@ -87,7 +87,7 @@ TEST(LectureClassic, IsUnbiased) {
   whole.crop.reset();
   const auto scene = room().light("l", point_light({0.1f, -0.5f, 0.6f}, 10)).build();
   Mean part, all;
-  for (int i = 0; i < 12; ++i, ++settings.seed, ++whole.seed) {
+  for (int i = 0, count = seeds(); i < count; ++i, ++settings.seed, ++whole.seed) {
     const Image cut = render(scene, settings), full = render(scene, whole);
     double sums[2] = {};
     for (int y = 2; y < 13; ++y) {
@@ -274,7 +274,7 @@ TEST(LectureAverages, AreRightWhereAllStrategiesAre) {
   pt.strategies.reset();
   const auto passes = [](const std::shared_ptr<const Scene>& scene, RenderSettings settings) {
     std::map<std::string, Mean> means;
-    for (int i = 0; i < 12; ++i, ++settings.seed) {
+    for (int i = 0, count = seeds(); i < count; ++i, ++settings.seed) {
       RenderSession session(scene, settings);
       session.start();
       session.finish();
@@ -354,7 +354,7 @@ TEST_P(LecturePyramid, ImagesWithoutWeightAreThoseOfTheStrategyAlone) {
     return sum;
   };
   std::map<std::string, Mean> alone;
-  for (int i = 0; i < 12; ++i, ++pyramid.seed) {
+  for (int i = 0, count = seeds(); i < count; ++i, ++pyramid.seed) {
     RenderSession session(scene, pyramid);
     session.start();
     session.finish();
@@ -370,7 +370,7 @@ TEST_P(LecturePyramid, ImagesWithoutWeightAreThoseOfTheStrategyAlone) {
       single.strategy_images = 0;
       single.strategies = Technique{s, edges + 1 - s};
       Mean expected;
-      for (int i = 0; i < 12; ++i, ++single.seed) {
+      for (int i = 0, count = seeds(); i < count; ++i, ++single.seed) {
         expected.add(total(render(scene, single)));
       }
       const Mean& found = alone.at(name + " alone");

@@ -191,21 +191,21 @@ TEST(Transport, KnowsItsVariance) {
   capture.settings.roulette = false;
   std::vector<Mean> shares;
   std::vector<double> reported;
-  const int seeds = 32;
-  for (int seed = 0; seed < seeds; ++seed) {
+  const int count = seeds(32);
+  for (int seed = 0; seed < count; ++seed) {
     capture.settings.seed = 100 + seed;
     const TransportMatrix m = capture.run(lit(projector_lamp()))->matrix();
     shares.resize(m.shares.size());
     reported.resize(m.shares.size(), 0.0);
     for (size_t i = 0; i < m.shares.size(); ++i) {
       shares[i].add(m.shares[i].x);
-      reported[i] += m.share_variances[i].x / seeds;
+      reported[i] += m.share_variances[i].x / count;
     }
   }
   double seen = 0.0, told = 0.0;
   for (size_t i = 0; i < shares.size(); ++i) {
     const double brightness = std::max(shares[i].mean(), 1e-9);
-    seen += seeds * shares[i].error() * shares[i].error() / (brightness * brightness);
+    seen += count * shares[i].error() * shares[i].error() / (brightness * brightness);
     told += reported[i] / (brightness * brightness);
   }
   EXPECT_GT(told / seen, 0.85);

@@ -33,10 +33,10 @@ inline Image render(const std::shared_ptr<const Scene>& scene, const RenderSetti
 // Luminance of the picture (first) and of its four quarters, as means over independent seeds: the
 // error bars come from the scatter between seeds, so correlations inside a picture do not matter.
 inline std::vector<Mean> quarters(const std::shared_ptr<const Scene>& scene,
-                                  RenderSettings settings, int seeds = 12) {
+                                  RenderSettings settings, int count = seeds()) {
   std::vector<Mean> means(5);
   settings.seed += 1000 * (static_cast<uint32_t>(settings.integrator) + 1);
-  for (int i = 0; i < seeds; ++i, ++settings.seed) {
+  for (int i = 0; i < count; ++i, ++settings.seed) {
     const Image image = render(scene, settings);
     double sums[5] = {};
     for (int y = 0; y < image.height; ++y) {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -137,8 +139,29 @@ struct SphereCells {
   }
 };
 
-// More samples for the nightly run.
-inline bool full() { return std::getenv("JANUS_FULL") != nullptr; }
-inline int samples(int quick) { return full() ? 16 * quick : quick; }
+// How much is drawn. JANUS_BRIEF=1 is for sanitizers, which look at memory and threads and are
+// slow: so little that what comes of it is not judged (support/main.cpp). JANUS_FULL=1 is for the
+// nightly run.
+inline bool brief() { return std::getenv("JANUS_BRIEF") != nullptr; }
+inline bool full() { return !brief() && std::getenv("JANUS_FULL") != nullptr; }
+// Has the running test got less than it asked for?
+inline std::atomic<bool> shortened{false};
+
+// Samples of a pixel, where a quick run takes so many.
+inline int samples(int quick) {
+  if (brief()) {
+    shortened = true;
+    return std::max(1, quick / 16);
+  }
+  return full() ? 16 * quick : quick;
+}
+// Independent pictures, where others take so many; at least two, for an error.
+inline int seeds(int usual = 12) {
+  if (brief()) {
+    shortened = true;
+    return std::min(usual, 2);
+  }
+  return usual;
+}
 
 }  // namespace janus::test
