@@ -77,8 +77,8 @@ TEST(MotionBlur, IsTheMeanOfAllTimes) {
   const auto scene = moving_room().build();
   const auto blurred = quarters(scene, small_picture(IntegratorType::PathTracer, samples(96)));
   std::vector<Mean> mean(5);
-  for (int k = 0; k < seeds();
-       ++k) {  // each an estimate by itself: one time of each twelfth, at random
+  for (int k = 0, count = seeds(); k < count; ++k) {
+    // An estimate by itself: one time of each twelfth, at random.
     std::vector<double> sums(5);
     constexpr int kTimes = 12;
     for (int i = 0; i < kTimes; ++i) {
