@@ -21,9 +21,10 @@ fi
 exec 9>"$chroot.lock"
 flock 9 # two runs at once: one build
 
-# The sources as they are now, with their dates: the build stays incremental.
+# Anew: other clones have been built here, and the dates of files say nothing about whose are newer.
+# What has not changed comes from ccache.
+$root rm -rf "$chroot/janus"
 $root mkdir -p "$chroot/janus"
-$root rm -rf "$chroot/janus/core" "$chroot/janus/tests"
 (cd "$here/.." && tar -c --exclude='__pycache__' CMakeLists.txt CMakePresets.json LICENSE \
   addon/blender_manifest.toml core tests/core tests/bench) |
   $root tar -x --no-same-owner -C "$chroot/janus"
