@@ -122,12 +122,11 @@ void GraphCompiler::closure(const NodeReader& reader, Value share) {
   program_.varying_transparency |=
       traits.transparent && (thin_glass || !neutral(step, traits.alpha));
   program_.varying_holdout |= traits.holds_out;
-  lobes_ += traits.lobes + (thin_glass ? 1 : 0);
-  for (const auto& optional : {traits.parts, traits.covers}) {
-    for (const ClosureTraits::Input& part : std::span(optional, 2)) {
-      lobes_ -= neutral(step, part) ? 1 : 0;
-    }
-  }
+  const auto absent = [&](std::span<const ClosureTraits::Input> optional) {
+    return static_cast<int>(std::ranges::count_if(
+        optional, [&](const ClosureTraits::Input& part) { return neutral(step, part); }));
+  };
+  lobes_ += traits.lobes + (thin_glass ? 1 : 0) - absent(traits.parts) - absent(traits.covers);
   say_if_full(reader);
   closures_.push_back(std::move(step));
 }

@@ -319,5 +319,30 @@ TEST(Compiler, TooManyClosures) {
   EXPECT_TRUE(warned(result, "D" + std::to_string(kMaxLobes), "left out"));
 }
 
+// Of a closure whose parts are known only where it is shaded, those count that may be there.
+TEST(Compiler, PartsThatAreNeverThereNeedNoRoom) {
+  const auto sum = [](int count, float subsurface) {
+    NodeGraph graph;
+    graph.nodes.push_back(node("Where", "NEW_GEOMETRY", {}));
+    for (int i = 0; i < count; ++i) {
+      const std::string n = std::to_string(i);
+      graph.nodes.push_back(
+          node("P" + n, "BSDF_PRINCIPLED",
+               {{"Base Color", link("Where", "Position")}, {"Subsurface Weight", subsurface}}));
+      graph.nodes.push_back(
+          node("A" + n, "ADD_SHADER",
+               {{"Shader", link("P" + n)}, {"Shader_001", link("A" + std::to_string(i + 1))}}));
+    }
+    graph.surface = NodeLink{"A0", "Shader"};
+    return compiled(graph);
+  };
+  constexpr int kPlain = kMaxLobes / 2;  // specular and diffuse
+  EXPECT_FALSE(warned(sum(kPlain, 0), "P" + std::to_string(kPlain - 1), "left out"));
+  EXPECT_TRUE(warned(sum(kPlain + 1, 0), "P" + std::to_string(kPlain), "left out"));
+  constexpr int kWax = kMaxLobes / 4;  // and two below the surface
+  EXPECT_FALSE(warned(sum(kWax, 0.5f), "P" + std::to_string(kWax - 1), "left out"));
+  EXPECT_TRUE(warned(sum(kWax + 1, 0.5f), "P" + std::to_string(kWax), "left out"));
+}
+
 }  // namespace
 }  // namespace janus::test
