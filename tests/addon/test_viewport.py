@@ -260,6 +260,7 @@ def test_says_that_it_is_done(world_of_things, core):
     assert done == "Rendering Done" and 0 < int(samples.split("/")[0]) < 1024
     settings.preview_samples = 2048
     eye.look()
+    assert not eye.viewport.status.startswith("Rendering Done")  # what is done is not that any more
     eye.viewport.advance()
     assert not eye.viewport.status.startswith("Rendering Done")
 
